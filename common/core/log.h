@@ -1,0 +1,28 @@
+#pragma once
+
+#include <spdlog/logger.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace kiln {
+
+/// The named logger of one module, e.g. logger("control.base"). Created on first use; thread-safe. Level `error`
+/// means that an operator must act.
+[[nodiscard]] std::shared_ptr<spdlog::logger> logger(const std::string& name);
+
+struct LogRecord {
+  std::string logger;
+  int level = 2;  ///< spdlog: 0 trace .. 4 error, 5 critical
+  std::string text;
+};
+
+/// Adds a sink that every logger writes to (the station's event log). The callback runs on the logging thread,
+/// must be quick and must not log.
+void addLogSink(std::function<void(const LogRecord&)> sink);
+
+/// 0 trace, 1 debug, 2 info, 3 warning, 4 error. Applies to present and future loggers.
+void setLogLevel(int level);
+
+}  // namespace kiln

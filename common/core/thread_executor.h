@@ -1,0 +1,51 @@
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <set>
+#include <thread>
+
+#include "common/core/clock.h"
+#include "common/core/executor.h"
+
+namespace kiln {
+
+/// Real time: one named thread a tick, a small pool for jobs. every() before start(); post() at any time and from
+/// any thread. stop() (or the destructor) joins all threads; nothing is detached.
+class ThreadExecutor final : public Executor {
+ public:
+  ThreadExecutor(const Clock& clock, int pool_threads);
+  ~ThreadExecutor() override;
+  ThreadExecutor(const ThreadExecutor&) = delete;
+  ThreadExecutor& operator=(const ThreadExecutor&) = delete;
+
+  bool post(Job job) override;
+  void every(Duration period, std::string name, int priority, std::function<void(Stamp)> tick) override;
+  void start();
+  void stop();
+  [[nodiscard]] std::vector<TickStatistics> statistics() const override;
+  [[nodiscard]] std::uint64_t droppedJobs() const override;
+
+ private:
+  struct Periodic {
+    Duration period;
+    std::function<void(Stamp)> tick;
+    TickStatistics statistics;
+  };
+  void runPeriodic(std::stop_token stop, Periodic& periodic);
+  void runPool(std::stop_token stop);
+
+  const Clock& clock_;
+  int pool_threads_;
+  mutable std::mutex mutex_;
+  std::condition_variable_any wake_;
+  std::deque<Job> jobs_;
+  std::set<std::string> waiting_kinds_;
+  std::uint64_t dropped_jobs_ = 0;
+  std::vector<std::unique_ptr<Periodic>> periodics_;
+  std::vector<std::jthread> threads_;
+};
+
+}  // namespace kiln

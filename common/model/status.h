@@ -1,0 +1,143 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "common/model/command.h"
+#include "common/model/sensor.h"
+
+namespace kiln {
+
+enum class Environment : std::uint8_t { Live, Sim, Replay };
+enum class StatusWord : std::uint8_t { NoLink, NotReady, Ready, Auto, Supervised, Teleop, Paused, Stopped };
+[[nodiscard]] std::string_view toString(StatusWord word);   ///< "NOT READY", ...
+[[nodiscard]] std::string_view toString(Mode mode);
+[[nodiscard]] std::string_view toString(ArmSafetyMode mode);
+
+enum class AlarmLevel : std::uint8_t { Advisory, Caution, Warning };
+struct Alarm {
+  std::string id;                      ///< stable, e.g. "arm.protective_stop"
+  AlarmLevel level = AlarmLevel::Caution;
+  std::string text;                    ///< what and where
+  std::string action;                  ///< what to do
+  Stamp since;
+  bool active = true;
+  bool acknowledged = false;
+};
+
+struct Check {                         ///< preflight row
+  std::string name;
+  bool ok = false;
+  std::string detail;
+};
+
+struct LeaseStatus {
+  std::string holder_client;           ///< empty = free
+  std::string holder_name;
+  std::uint64_t epoch = 0;
+  double expires_in_s = 0.0;
+};
+struct StopStatus {
+  bool latched = false;
+  std::string source;                  ///< who or what
+  Stamp since;
+  bool standstill_proven = false;      ///< wheels, joints and pump currents all at rest, measured
+};
+struct MacroInfo {
+  std::string name;                    ///< "spray fire 1"
+  std::string doc;
+  double duration_s = 0.0;
+  double water_l = 0.0;
+  std::string start_condition;         ///< "start within 5 cm"
+};
+struct MacroStatus {
+  std::string running;                 ///< empty = none
+  int step = 0, steps = 0;
+  std::string step_text;
+  double progress = 0.0;               ///< 0..1
+  std::string last_result;             ///< "done", "cancelled: released", "failed: ..."
+};
+struct WaterStatus {
+  std::array<double, 2> duty{};
+  std::array<double, 2> current_a{};
+  std::array<double, 2> tank_l_est{};  ///< estimated litres left, left and right
+  double sprayed_l_est = 0.0;          ///< whole mission
+};
+struct DropCount { std::string topic; std::uint64_t dropped = 0; };
+
+/// Everything the top bar, cards and 3D robot need. Published at 10 Hz.
+struct RobotStatus {
+  Stamp stamp;
+  std::uint64_t seq = 0;
+  std::string robot_name = "Bob";
+  std::string version;
+  Environment environment = Environment::Sim;
+  Mode mode = Mode::None;
+  StatusWord word = StatusWord::NotReady;
+  std::string reason;                  ///< why NOT READY / PAUSED / STOPPED
+  std::vector<Check> checks;
+  LeaseStatus lease;
+  StopStatus stop;
+  Pose2 X_map_base;
+  double pose_age_s = 0.0;
+  Twist2 twist;                        ///< measured, base frame
+  ArmState arm;
+  Eigen::Isometry3d X_base_nozzle = Eigen::Isometry3d::Identity();
+  std::array<double, 4> wheel_steer_rad{};
+  double battery_v = 0.0;
+  double battery_a = 0.0;
+  WaterStatus water;
+  MacroStatus macro;
+  double speed_scale = 0.35;
+  double mission_elapsed_s = 0.0;
+  double mission_limit_s = 900.0;
+  int resets = 0;
+  double score_est = 0.0;
+  std::vector<Alarm> alarms;
+  std::vector<DropCount> drops;
+  std::vector<std::string> operators;  ///< names of connected stations
+};
+
+/// Planned path, for the scene.
+struct PathInfo {
+  Stamp stamp;
+  std::vector<Pose2> waypoints_map;
+  int next = 0;
+};
+
+/// Configured fire place, for the scene.
+struct FirePlaceInfo {
+  std::string name;
+  Eigen::Vector3d p_map = Eigen::Vector3d::Zero();  ///< expected plate centre
+  double yaw_rad = 0.0;                             ///< direction in which the opening looks
+  bool visited = false;
+};
+
+/// Predicted jet for the scene: points in map, metres.
+struct JetPreview {
+  Stamp stamp;
+  std::vector<Eigen::Vector3d> points_map;
+  bool spraying = false;
+};
+
+struct LogLine {
+  Stamp stamp;
+  int level = 2;                       ///< spdlog numbering
+  std::string logger;
+  std::string text;
+};
+
+/// First message of a robot to a station.
+struct HelloReply {
+  bool accepted = false;
+  std::string reason;
+  std::string robot_name;
+  std::string version;
+  std::uint32_t protocol = 0;
+  std::string mission_uuid;
+  Environment environment = Environment::Sim;
+};
+inline constexpr std::uint32_t kProtocolVersion = 1;
+
+}  // namespace kiln

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "common/core/clock.h"
+#include "common/robot_model/robot_geometry.h"
+#include "robot/hal/arm.h"
+#include "robot/safety/stop_latch.h"
+
+namespace kiln {
+
+/// What the mission (50 Hz) or the teleoperator wants of the arm. Older than `ttl` means stop.
+struct ArmSetpoint {
+  enum class Kind { Hold, Joints, JointVelocity };
+  Kind kind = Kind::Hold;
+  Stamp stamp;
+  Duration ttl = std::chrono::milliseconds(250);
+  Vector6d q = Vector6d::Zero();       ///< Joints: target for this instant on a jerk-limited trajectory, rad
+  Vector6d qd = Vector6d::Zero();      ///< Joints: feed-forward; JointVelocity: the wish, rad/s
+  double stop_force_n = 0.0;           ///< > 0: guarded motion, stop and latch a contact above this force
+};
+
+struct ArmTracking {
+  Stamp stamp;
+  bool ready = false;                  ///< state is fresh and the arm may move
+  Vector6d q_command = Vector6d::Zero();
+  double tracking_error_rad = 0.0;
+  bool contact_stop = false;           ///< latched until the next Hold setpoint
+  double contact_force_n = 0.0;
+  bool at_rest = true;
+  std::string blocked;                 ///< why it does not move: "protective stop", "STOP latched", "setpoint too old" ...
+};
+
+/// Tracks setpoints at the servo rate with velocity, acceleration and jerk limits. Refuses NaN, out-of-limit and
+/// stale setpoints; never lets one reach the device. setpoint()/tracking() are thread-safe, tick() is confined to
+/// the control thread.
+class ArmController {
+ public:
+  struct Config {
+    double servo_rate_hz = 125.0;      ///< 500 for a UR10e
+    double max_speed_scale = 0.5;      ///< of the vendor's joint speed limits
+    double max_accel_radps2 = 4.0;
+    double max_jerk_radps3 = 40.0;
+    double stop_decel_radps2 = 8.0;
+    void visit(ConfigArchive& a);
+  };
+  ArmController(Config config, const RobotGeometry& robot, Arm& arm, const StopLatch& stop);
+  ~ArmController();
+  void setpoint(const ArmSetpoint& setpoint);
+  void tick(Stamp now);
+  [[nodiscard]] ArmTracking tracking() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace kiln

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "common/core/clock.h"
+#include "common/robot_model/robot_geometry.h"
+#include "robot/hal/drive_base.h"
+#include "robot/safety/stop_latch.h"
+
+namespace kiln {
+
+/// Wanted velocity of the base; older than `ttl` means ramp to zero (begins within 250 ms of the last one, at
+/// 2 m/s^2).
+struct BaseSetpoint {
+  Stamp stamp;
+  Duration ttl = std::chrono::milliseconds(250);
+  Twist2 twist;                        ///< base frame
+};
+
+struct BaseTracking {
+  Stamp stamp;
+  bool ready = false;
+  Twist2 commanded;                    ///< after limits
+  Twist2 measured;                     ///< from the wheels
+  Pose2 X_odom_base;                   ///< wheel odometry since the last reset
+  bool at_rest = true;
+  std::string blocked;
+};
+
+/// Four steered wheels: inverse kinematics with steering range and rate limits (waits for the wheels to point the
+/// right way before driving), velocity, acceleration and jerk limits, odometry from the measured wheels.
+/// setpoint()/tracking() thread-safe; tick() confined to the control thread.
+class BaseController {
+ public:
+  struct Config {
+    double max_speed_mps = 1.0;
+    double max_yaw_rate_radps = 0.8;
+    double max_accel_mps2 = 0.8;
+    double stop_decel_mps2 = 2.0;
+    double max_jerk_mps3 = 4.0;
+    void visit(ConfigArchive& a);
+  };
+  BaseController(Config config, const RobotGeometry& robot, DriveBase& base, const StopLatch& stop);
+  ~BaseController();
+  void setpoint(const BaseSetpoint& setpoint);
+  void resetOdometry();
+  void tick(Stamp now);
+  [[nodiscard]] BaseTracking tracking() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace kiln

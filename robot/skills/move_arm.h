@@ -1,0 +1,48 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "common/core/clock.h"
+#include "common/core/error.h"
+#include "robot/control/arm_controller.h"
+#include "robot/scene/arena_map.h"
+#include "robot/skills/skill.h"
+
+namespace kiln {
+
+/// Moves the arm to joint or Cartesian goals: inverse kinematics over all UR solutions, limits, self-collision,
+/// collision with base, tanks and the known scene, then a jerk-limited joint or straight-line trajectory that is
+/// streamed as setpoints at 50 Hz. Guarded by default: stops on unexpected force.
+class MoveArm {
+ public:
+  struct Config {
+    double speed_scale = 0.3;             ///< of the joint limits
+    double cartesian_speed_mps = 0.25;
+    double cartesian_accel_mps2 = 0.5;
+    double guard_force_n = 60.0;
+    double clearance_m = 0.03;            ///< to base, tanks, scene and itself
+    void visit(ConfigArchive& a);
+  };
+  using PoseSource = std::function<Pose2()>;
+  MoveArm(Config config, const RobotGeometry& robot, const ArenaMap& arena, ArmController& controller, const Arm& arm,
+          PoseSource pose);
+  ~MoveArm();
+  /// Joint-space move, rad.
+  void startJoints(const Vector6d& q_goal, Stamp now);
+  /// Flange pose in base; the solution nearest to the present joints that is free of collision along the way.
+  void startPose(const Eigen::Isometry3d& X_base_flange, Stamp now);
+  /// Straight lines through flange poses in base, jerk-limited, without stopping when `blend`.
+  void startCartesian(std::vector<Eigen::Isometry3d> X_base_flange, bool blend, Stamp now);
+  [[nodiscard]] SkillStatus poll(Stamp now);
+  void cancel();                          ///< arm decelerates and holds
+  /// Reachable and free of collision now? Error says why not.
+  [[nodiscard]] Result<Vector6d> check(const Eigen::Isometry3d& X_base_flange) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace kiln
