@@ -1,0 +1,31 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "common/model/fire.h"
+#include "common/model/status.h"
+
+namespace kiln {
+
+/// A box of the nominal arena, for drawing. Frame: map, metres.
+struct SceneBox {
+  std::string name;
+  Eigen::Isometry3d X_map_box = Eigen::Isometry3d::Identity();
+  Eigen::Vector3d half_extent = Eigen::Vector3d::Zero();
+  std::uint32_t rgb = 0x808080;  ///< 0xRRGGBB
+};
+
+/// Everything the scene overlays on the live robot; mirrors kiln.v1.Scene. Sent when it changes and every 2 s.
+struct Scene {
+  Stamp stamp;
+  std::vector<FireEstimate> fires;
+  std::vector<FirePlaceInfo> places;
+  PathInfo planned;
+  JetPreview jet;
+  std::vector<SceneBox> arena;
+};
+
+}  // namespace kiln
