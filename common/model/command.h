@@ -9,6 +9,9 @@
 
 namespace kiln {
 
+/// What a client may do: a Viewer only looks (its STOP still counts), a Supervisor may pre-empt a lease.
+enum class ClientRole : std::uint8_t { Viewer, Operator, Supervisor };
+
 enum class Mode : std::uint8_t { None, Autonomous, Supervised, Teleop, Stopped };
 
 // --- discrete commands: acknowledged, age limit 1 s (transitions 2 s) -------------------------------------------
@@ -31,7 +34,8 @@ enum class JogFrame : std::uint8_t { Joint, Tool, Base };
 struct JogBase { Twist2 twist; };                       ///< base frame; clamped on the robot
 struct JogArm { JogFrame frame = JogFrame::Base; Vector6d velocity = Vector6d::Zero(); };  ///< rad/s, or m/s + rad/s
 struct HoldPump { double left = 0.0, right = 0.0; };    ///< duty 0..1
-struct HoldMacro { std::string name; bool restart = false; };  ///< runs while held; restart starts from the first step
+/// Runs while held; restart starts from the first step; an empty name is the release.
+struct HoldMacro { std::string name; bool restart = false; };
 struct ReleaseAll {};                                   ///< explicit zero: sent three times on release
 
 using CommandBody = std::variant<AcquireLease, ReleaseLease, StartMission, Pause, Resume, ChangeState, SetMode, ClearStop,
@@ -58,6 +62,7 @@ struct CommandAck {
   std::string code;                    ///< machine-readable: "no_lease", "too_old", "wrong_mode", "replayed", "moved", ...
   std::string reason;                  ///< one sentence: what, why, what to do
   std::string lease_holder;
+  std::uint64_t lease_epoch = 0;       ///< the lease just granted (acquire_lease), else 0
 };
 
 }  // namespace kiln

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace kiln {
+
+/// Everything a robot publishes.
+enum class Topic : std::uint8_t {
+  RobotStatus,
+  FsmStatus,
+  FsmInfo,
+  Scene,
+  Macros,
+  Log,
+  Cloud,
+  Thermal,
+  Heat,
+  HeadCamera,
+  OperatorCamera,
+};
+inline constexpr std::size_t kTopicCount = 11;
+
+/// Which PUB socket carries a topic, so that a cloud never delays a status.
+enum class Lane : std::uint8_t { Status, Streams };
+
+/// Quality of service of one topic.
+struct TopicInfo {
+  Topic topic;
+  std::string_view name;  ///< on the wire
+  Lane lane;
+  std::size_t queue;  ///< messages waiting for the link thread; the oldest is dropped and counted
+  bool latched;  ///< the newest is kept: sent again to each new subscriber and every kLatchedPeriod
+  double max_rate_hz;  ///< more than this is dropped and counted; 0 = no cap
+};
+
+/// The table: one row a topic, in the order of the enum.
+[[nodiscard]] const std::array<TopicInfo, kTopicCount>& topicTable();
+[[nodiscard]] const TopicInfo& topicInfo(Topic topic);
+[[nodiscard]] std::optional<Topic> topicByName(std::string_view name);
+
+}  // namespace kiln

@@ -1,0 +1,119 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/config/config_archive.h"
+#include "common/core/clock.h"
+#include "common/core/error.h"
+#include "common/model/fire.h"
+#include "common/model/fsm.h"
+#include "common/model/link.h"
+#include "common/model/scene.h"
+#include "common/model/sensor.h"
+#include "common/model/status.h"
+#include "robot/safety/stop_latch.h"
+
+namespace kiln {
+
+/// A command as it came in. `command.issued` and `received` are both robot time.
+struct ReceivedCommand {
+  Command command;
+  Stamp received;
+  ClientRole role = ClientRole::Operator;  ///< what the sender said in its hello
+  double rtt_s = 0.0;                      ///< the sender's round trip, as it last reported it
+};
+
+/// A client that has said hello.
+struct OperatorPeer {
+  std::string client_id;
+  std::string name;
+  std::string version;
+  ClientRole role = ClientRole::Operator;
+  Stamp last_heard;       ///< any message of it on the command socket: renews its lease
+  double rx_age_s = 0.0;  ///< age of last_heard, by the link's own clock
+  double peer_rx_age_s =
+      0.0;             ///< how old our last message is as the peer sees it (detects a deaf station)
+  double rtt_s = 0.0;  ///< 0 = not measured yet
+};
+
+/// A STOP that arrived on the stop lane; the latch is set already.
+struct StopEvent {
+  std::string client_id;
+  std::string operator_name;
+  Stamp latched;
+};
+
+/// The robot's side of the link. Two threads: `link`, sole owner of the command, status and streams
+/// sockets, and `stop` with a ZeroMQ context and socket of its own, which sets the StopLatch the
+/// moment a request arrives.
+///
+/// Thread-safe: every method may be called from any thread and none blocks longer than a queue's
+/// mutex. Encoding (cloud compression) runs on the link thread, and only for topics that somebody
+/// subscribes to. All queues are bounded; drops() counts each loss by topic.
+class OperatorLink {
+ public:
+  struct Config {
+    std::string endpoint = "tcp://127.0.0.1:7300";  ///< command, status, streams, stop on port +0
+                                                    ///< .. +3; or ipc:///dir/prefix
+    std::string robot_name = "Bob";
+    double forget_after_s = 30.0;  ///< a silent client is dropped from operators()
+    int command_queue = 256;  ///< commands waiting for the mission tick; more are refused as "busy"
+    double cloud_resolution_m = 0.005;  ///< 0.005 or 0.002
+    void visit(ConfigArchive& a);
+  };
+  /// Fixed for the life of the process; not configuration.
+  struct Identity {
+    std::string version;
+    Environment environment = Environment::Sim;
+    std::string mission_uuid;  ///< a client that expects another one is refused in words
+  };
+
+  /// Binds the sockets and starts both threads. `clock` and `stop` must outlive the link.
+  /// Error: Refused for an address that is neither ipc nor loopback; Unavailable when the port or
+  /// path is in use.
+  [[nodiscard]] static Result<std::unique_ptr<OperatorLink>> open(Config config, Identity identity,
+                                                                  const Clock& clock,
+                                                                  StopLatch& stop);
+  ~OperatorLink();
+  OperatorLink(const OperatorLink&) = delete;
+  OperatorLink& operator=(const OperatorLink&) = delete;
+
+  // --- commands: drained by the mission tick
+  // ---------------------------------------------------------------------
+  [[nodiscard]] std::vector<ReceivedCommand> takeCommands();
+  /// Goes to ack.client_id; counted as dropped when that client is gone.
+  void acknowledge(const CommandAck& ack);
+  /// STOPs since the last call, for the lease (a STOP revokes it) and the log.
+  [[nodiscard]] std::vector<StopEvent> takeStops();
+  [[nodiscard]] std::vector<OperatorPeer> operators() const;
+  void setMissionUuid(const std::string& uuid);
+
+  // --- telemetry
+  // -------------------------------------------------------------------------------------------------
+  void publish(RobotStatus status);
+  void publish(FsmInfo info);  ///< latched
+  void publish(FsmStatus status);
+  void publish(Scene scene);                    ///< latched
+  void publish(std::vector<MacroInfo> macros);  ///< latched
+  void publish(LogBatch batch);
+  void publish(PointCloudPtr cloud);
+  void publish(ThermalImagePtr image);
+  void publish(HeatDetections detections);
+  void publish(JpegImagePtr image);  ///< frame "rgb" or "operator_camera"
+  /// Somebody subscribes to pictures of this frame: encode JPEG only then.
+  [[nodiscard]] bool wanted(const std::string& jpeg_frame) const;
+
+  /// By topic, plus "commands" and "acks".
+  [[nodiscard]] std::vector<DropCount> drops() const;
+
+ private:
+  struct Impl;
+  explicit OperatorLink(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace kiln
