@@ -27,7 +27,8 @@ std::string nearestName(const std::string& name, const std::vector<std::string>&
   std::string best;
   std::size_t best_distance = std::max<std::size_t>(3, name.size() / 3) + 1;
   for (const std::string& candidate : candidates) {
-    // A missing unit suffix ("voxel_size" for "voxel_size_m") is the commonest slip: count it as near.
+    // A missing unit suffix ("voxel_size" for "voxel_size_m") is the commonest slip: count it as
+    // near.
     const bool prefix = candidate.rfind(name, 0) == 0 || name.rfind(candidate, 0) == 0;
     const std::size_t distance = prefix ? 1 : editDistance(name, candidate);
     if (distance < best_distance) {

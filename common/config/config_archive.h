@@ -11,8 +11,8 @@ namespace kiln {
 
 class ConfigArchive;
 
-/// Any plain struct with `void visit(ConfigArchive&)`, seen through one virtual call so that visitors need no
-/// templates in headers.
+/// Any plain struct with `void visit(ConfigArchive&)`, seen through one virtual call so that
+/// visitors need no templates in headers.
 struct ConfigNode {
   std::function<void(ConfigArchive&)> visit;
 };
@@ -22,21 +22,24 @@ struct ConfigNode {
 ///     a.field("max_speed_mps", max_speed_mps, "m/s", 0.0, 4.0, "speed limit");
 ///     a.section("limits", limits, "what the base may do");
 ///   }
-/// which yields loading with file:line errors, validation, a dump of the effective values and the reference table.
-/// A range is [min, max], inclusive; NaN is always out of range.
+/// which yields loading with file:line errors, validation, a dump of the effective values and the
+/// reference table. A range is [min, max], inclusive; NaN is always out of range.
 class ConfigArchive {
  public:
   virtual ~ConfigArchive() = default;
-  virtual void field(const char* name, double& value, const char* unit, double min, double max, const char* doc) = 0;
-  virtual void field(const char* name, int& value, const char* unit, int min, int max, const char* doc) = 0;
+  virtual void field(const char* name, double& value, const char* unit, double min, double max,
+                     const char* doc) = 0;
+  virtual void field(const char* name, int& value, const char* unit, int min, int max,
+                     const char* doc) = 0;
   virtual void field(const char* name, bool& value, const char* doc) = 0;
   virtual void field(const char* name, std::string& value, const char* doc) = 0;
   /// Fixed length: the YAML list must have exactly value.size() entries when size > 0 and `fixed`.
-  virtual void field(const char* name, std::vector<double>& value, const char* unit, double min, double max,
-                     const char* doc, bool fixed = true) = 0;
+  virtual void field(const char* name, std::vector<double>& value, const char* unit, double min,
+                     double max, const char* doc, bool fixed = true) = 0;
   virtual void sectionNode(const char* name, const ConfigNode& node, const char* doc) = 0;
   /// A list of like items: `resize(n)` is called once when loading, then `item(i)` for each.
-  virtual void listNode(const char* name, std::size_t size, const std::function<void(std::size_t)>& resize,
+  virtual void listNode(const char* name, std::size_t size,
+                        const std::function<void(std::size_t)>& resize,
                         const std::function<ConfigNode(std::size_t)>& item, const char* doc) = 0;
 
   template <class T>
@@ -47,14 +50,19 @@ class ConfigArchive {
   void list(const char* name, std::vector<T>& values, const char* doc) {
     listNode(
         name, values.size(), [&values](std::size_t n) { values.assign(n, T{}); },
-        [&values](std::size_t i) { return ConfigNode{[&values, i](ConfigArchive& a) { values[i].visit(a); }}; }, doc);
+        [&values](std::size_t i) {
+          return ConfigNode{[&values, i](ConfigArchive& a) { values[i].visit(a); }};
+        },
+        doc);
   }
 };
 
-/// Reads `path` over the defaults in `root`. Error: `file:line: unknown key 'x'; did you mean 'y'?`,
-/// `file:line: 'x' is 7 m; allowed 0 to 4`, or what is wrong with the file. On error `root` may be half-filled.
+/// Reads `path` over the defaults in `root`. Error: `file:line: unknown key 'x'; did you mean
+/// 'y'?`, `file:line: 'x' is 7 m; allowed 0 to 4`, or what is wrong with the file. On error `root`
+/// may be half-filled.
 [[nodiscard]] Result<void> loadYaml(const std::string& path, const ConfigNode& root);
-[[nodiscard]] Result<void> loadYamlText(const std::string& text, const std::string& name, const ConfigNode& root);
+[[nodiscard]] Result<void> loadYamlText(const std::string& text, const std::string& name,
+                                        const ConfigNode& root);
 /// The effective configuration as YAML.
 [[nodiscard]] std::string dumpYaml(const ConfigNode& root);
 /// A Markdown table: key, default, unit, range, meaning.
@@ -70,6 +78,7 @@ template <class T>
 }
 
 /// The name in `candidates` nearest to `name` by edit distance, or empty if none is near.
-[[nodiscard]] std::string nearestName(const std::string& name, const std::vector<std::string>& candidates);
+[[nodiscard]] std::string nearestName(const std::string& name,
+                                      const std::vector<std::string>& candidates);
 
 }  // namespace kiln

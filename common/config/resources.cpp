@@ -1,10 +1,10 @@
 #include "common/config/resources.h"
 
-#include <fmt/ranges.h>
-
 #include <cstdlib>
 #include <filesystem>
 #include <vector>
+
+#include <fmt/ranges.h>
 
 namespace kiln {
 
@@ -15,7 +15,8 @@ Result<std::string> resourcePath(const std::string& relative) {
   const fs::path program = fs::read_symlink("/proc/self/exe", ec).parent_path();
   std::vector<fs::path> roots;
   if (const char* env = std::getenv("KILN_RESOURCES")) roots.emplace_back(env);
-  for (const char* up : {"../resources", "../../resources", "../../../resources"}) roots.push_back(program / up);
+  for (const char* up : {"../resources", "../../resources", "../../../resources"})
+    roots.push_back(program / up);
   roots.push_back(program / "../share/kiln");
   roots.push_back(KILN_RESOURCE_DIR);
   for (const fs::path& root : roots) {
@@ -23,8 +24,10 @@ Result<std::string> resourcePath(const std::string& relative) {
     if (fs::exists(path, ec)) return path.string();
     tried.push_back(path.string());
   }
-  return makeError(ErrorCode::NotFound, "resource '{}' not found; tried {}; set KILN_RESOURCES to Kiln's resources folder",
-                   relative, fmt::join(tried, ", "));
+  return makeError(
+      ErrorCode::NotFound,
+      "resource '{}' not found; tried {}; set KILN_RESOURCES to Kiln's resources folder", relative,
+      fmt::join(tried, ", "));
 }
 
 }  // namespace kiln

@@ -9,11 +9,16 @@ namespace {
 class YamlDumper final : public ConfigArchive {
  public:
   explicit YamlDumper(YAML::Emitter& out) : out_(out) {}
-  void field(const char* name, double& value, const char*, double, double, const char*) override { entry(name, value); }
-  void field(const char* name, int& value, const char*, int, int, const char*) override { entry(name, value); }
+  void field(const char* name, double& value, const char*, double, double, const char*) override {
+    entry(name, value);
+  }
+  void field(const char* name, int& value, const char*, int, int, const char*) override {
+    entry(name, value);
+  }
   void field(const char* name, bool& value, const char*) override { entry(name, value); }
   void field(const char* name, std::string& value, const char*) override { entry(name, value); }
-  void field(const char* name, std::vector<double>& value, const char*, double, double, const char*, bool) override {
+  void field(const char* name, std::vector<double>& value, const char*, double, double, const char*,
+             bool) override {
     out_ << YAML::Key << name << YAML::Value << YAML::Flow << value;
   }
   void sectionNode(const char* name, const ConfigNode& child, const char*) override {
@@ -42,18 +47,26 @@ class YamlDumper final : public ConfigArchive {
 
 class TableWriter final : public ConfigArchive {
  public:
-  explicit TableWriter(std::string prefix, std::string& out) : prefix_(std::move(prefix)), out_(out) {}
-  void field(const char* name, double& value, const char* unit, double min, double max, const char* doc) override {
+  explicit TableWriter(std::string prefix, std::string& out)
+      : prefix_(std::move(prefix)), out_(out) {}
+  void field(const char* name, double& value, const char* unit, double min, double max,
+             const char* doc) override {
     row(name, fmt::format("{}", value), unit, fmt::format("{} to {}", min, max), doc);
   }
-  void field(const char* name, int& value, const char* unit, int min, int max, const char* doc) override {
+  void field(const char* name, int& value, const char* unit, int min, int max,
+             const char* doc) override {
     row(name, fmt::format("{}", value), unit, fmt::format("{} to {}", min, max), doc);
   }
-  void field(const char* name, bool& value, const char* doc) override { row(name, value ? "true" : "false", "", "", doc); }
-  void field(const char* name, std::string& value, const char* doc) override { row(name, value, "", "", doc); }
-  void field(const char* name, std::vector<double>& value, const char* unit, double min, double max, const char* doc,
-             bool) override {
-    row(name, fmt::format("[{}]", fmt::join(value, ", ")), unit, fmt::format("{} to {}", min, max), doc);
+  void field(const char* name, bool& value, const char* doc) override {
+    row(name, value ? "true" : "false", "", "", doc);
+  }
+  void field(const char* name, std::string& value, const char* doc) override {
+    row(name, value, "", "", doc);
+  }
+  void field(const char* name, std::vector<double>& value, const char* unit, double min, double max,
+             const char* doc, bool) override {
+    row(name, fmt::format("[{}]", fmt::join(value, ", ")), unit, fmt::format("{} to {}", min, max),
+        doc);
   }
   void sectionNode(const char* name, const ConfigNode& child, const char*) override {
     TableWriter nested(prefix_ + name + ".", out_);
@@ -68,7 +81,8 @@ class TableWriter final : public ConfigArchive {
   }
 
  private:
-  void row(const char* name, const std::string& value, const char* unit, const std::string& range, const char* doc) {
+  void row(const char* name, const std::string& value, const char* unit, const std::string& range,
+           const char* doc) {
     out_ += fmt::format("| `{}{}` | {} | {} | {} | {} |\n", prefix_, name, value, unit, range, doc);
   }
   std::string prefix_;

@@ -1,11 +1,11 @@
-#include <yaml-cpp/yaml.h>
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <optional>
 #include <sstream>
+
+#include <yaml-cpp/yaml.h>
 
 #include "common/config/config_archive.h"
 
@@ -18,16 +18,20 @@ class YamlLoader final : public ConfigArchive {
   YamlLoader(const YAML::Node& map, const std::string& file, std::string& error)
       : map_(map), file_(file), error_(error) {}
 
-  void field(const char* name, double& value, const char* unit, double min, double max, const char*) override {
+  void field(const char* name, double& value, const char* unit, double min, double max,
+             const char*) override {
     if (const auto node = find(name)) readNumber(name, *node, value, unit, min, max);
   }
-  void field(const char* name, int& value, const char* unit, int min, int max, const char*) override {
+  void field(const char* name, int& value, const char* unit, int min, int max,
+             const char*) override {
     const auto node = find(name);
     if (!node) return;
     int parsed = 0;
-    if (!YAML::convert<int>::decode(*node, parsed)) return fail(*node, fmt::format("'{}' must be a whole number", name));
+    if (!YAML::convert<int>::decode(*node, parsed))
+      return fail(*node, fmt::format("'{}' must be a whole number", name));
     if (parsed < min || parsed > max) {
-      return fail(*node, fmt::format("'{}' is {} {}; allowed {} to {}", name, parsed, unit, min, max));
+      return fail(*node,
+                  fmt::format("'{}' is {} {}; allowed {} to {}", name, parsed, unit, min, max));
     }
     value = parsed;
   }
@@ -43,16 +47,19 @@ class YamlLoader final : public ConfigArchive {
     if (!node->IsScalar()) return fail(*node, fmt::format("'{}' must be a text", name));
     value = node->Scalar();
   }
-  void field(const char* name, std::vector<double>& value, const char* unit, double min, double max, const char*,
-             bool fixed) override {
+  void field(const char* name, std::vector<double>& value, const char* unit, double min, double max,
+             const char*, bool fixed) override {
     const auto node = find(name);
     if (!node) return;
-    if (!node->IsSequence()) return fail(*node, fmt::format("'{}' must be a list of numbers", name));
+    if (!node->IsSequence())
+      return fail(*node, fmt::format("'{}' must be a list of numbers", name));
     if (fixed && !value.empty() && node->size() != value.size()) {
-      return fail(*node, fmt::format("'{}' has {} entries; it needs {}", name, node->size(), value.size()));
+      return fail(
+          *node, fmt::format("'{}' has {} entries; it needs {}", name, node->size(), value.size()));
     }
     value.assign(node->size(), 0.0);
-    for (std::size_t i = 0; i < node->size(); ++i) readNumber(name, (*node)[i], value[i], unit, min, max);
+    for (std::size_t i = 0; i < node->size(); ++i)
+      readNumber(name, (*node)[i], value[i], unit, min, max);
   }
   void sectionNode(const char* name, const ConfigNode& child, const char*) override {
     if (const auto node = find(name)) visitMap(name, *node, child);
@@ -72,8 +79,9 @@ class YamlLoader final : public ConfigArchive {
       const std::string key = entry.first.Scalar();
       if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
       const std::string near = nearestName(key, known_);
-      return fail(entry.first, fmt::format("unknown key '{}'{}", key,
-                                           near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+      return fail(entry.first,
+                  fmt::format("unknown key '{}'{}", key,
+                              near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
     }
   }
 
@@ -84,16 +92,20 @@ class YamlLoader final : public ConfigArchive {
     if (!node.IsDefined() || !error_.empty()) return std::nullopt;
     return node;
   }
-  void readNumber(const char* name, const YAML::Node& node, double& value, const char* unit, double min, double max) {
+  void readNumber(const char* name, const YAML::Node& node, double& value, const char* unit,
+                  double min, double max) {
     double parsed = 0.0;
-    if (!YAML::convert<double>::decode(node, parsed)) return fail(node, fmt::format("'{}' must be a number", name));
+    if (!YAML::convert<double>::decode(node, parsed))
+      return fail(node, fmt::format("'{}' must be a number", name));
     if (!(parsed >= min && parsed <= max)) {
-      return fail(node, fmt::format("'{}' is {} {}; allowed {} to {}", name, parsed, unit, min, max));
+      return fail(node,
+                  fmt::format("'{}' is {} {}; allowed {} to {}", name, parsed, unit, min, max));
     }
     value = parsed;
   }
   void visitMap(const char* name, const YAML::Node& node, const ConfigNode& child) {
-    if (!node.IsMap()) return fail(node, fmt::format("'{}' must be a mapping of keys to values", name));
+    if (!node.IsMap())
+      return fail(node, fmt::format("'{}' must be a mapping of keys to values", name));
     YamlLoader loader(node, file_, error_);
     child.visit(loader);
     loader.refuseUnknownKeys();
@@ -110,11 +122,13 @@ class YamlLoader final : public ConfigArchive {
 
 }  // namespace
 
-Result<void> loadYamlText(const std::string& text, const std::string& name, const ConfigNode& root) {
+Result<void> loadYamlText(const std::string& text, const std::string& name,
+                          const ConfigNode& root) {
   try {
     const YAML::Node document = YAML::Load(text);
     if (document.IsNull()) return {};  // an empty file keeps every default
-    if (!document.IsMap()) return makeError(ErrorCode::InvalidInput, "{}:1: expected 'key: value' lines", name);
+    if (!document.IsMap())
+      return makeError(ErrorCode::InvalidInput, "{}:1: expected 'key: value' lines", name);
     std::string error;
     YamlLoader loader(document, name, error);
     root.visit(loader);

@@ -12,7 +12,8 @@ namespace kiln {
 
 enum class DropPolicy { Oldest, Newest };
 
-/// A queue with a limit and a stated policy for what happens at it. Thread-safe. Every drop is counted.
+/// A queue with a limit and a stated policy for what happens at it. Thread-safe. Every drop is
+/// counted.
 template <class T>
 class BoundedQueue {
  public:
@@ -41,7 +42,8 @@ class BoundedQueue {
   }
   [[nodiscard]] std::vector<T> drain() {
     const std::lock_guard lock(mutex_);
-    std::vector<T> out(std::make_move_iterator(values_.begin()), std::make_move_iterator(values_.end()));
+    std::vector<T> out(std::make_move_iterator(values_.begin()),
+                       std::make_move_iterator(values_.end()));
     values_.clear();
     return out;
   }

@@ -16,7 +16,8 @@ void setCheckFailureHandler(std::function<void(const std::string&)> handler) {
 }
 
 void checkFailed(const char* file, int line, const char* condition, const std::string& values) {
-  const std::string message = fmt::format("{}:{}: check failed: {} [{}]", file, line, condition, values);
+  const std::string message =
+      fmt::format("{}:{}: check failed: {} [{}]", file, line, condition, values);
   std::fprintf(stderr, "%s\n", message.c_str());
   if (failureHandler()) failureHandler()(message);
   std::abort();

@@ -7,7 +7,8 @@
 namespace kiln {
 
 Stamp SteadyClock::now() const {
-  return Stamp{std::chrono::duration_cast<Duration>(std::chrono::steady_clock::now().time_since_epoch())};
+  return Stamp{
+      std::chrono::duration_cast<Duration>(std::chrono::steady_clock::now().time_since_epoch())};
 }
 
 void ManualClock::advanceTo(Stamp t) {

@@ -1,25 +1,25 @@
 #pragma once
 
-#include <fmt/format.h>
-
 #include <string>
 #include <string_view>
+
+#include <fmt/format.h>
 #include <tl/expected.hpp>
 
 namespace kiln {
 
 /// What kind of expected failure this is; decides who reacts (retry, operator, give up).
 enum class ErrorCode {
-  InvalidInput,    ///< bad config, bad argument, bad message
-  NotFound,        ///< missing file, device, name
-  Unavailable,     ///< peer or device does not answer, port in use
-  Refused,         ///< a command that the rules do not allow now
-  Degenerate,      ///< data too poor for the algorithm
+  InvalidInput,  ///< bad config, bad argument, bad message
+  NotFound,      ///< missing file, device, name
+  Unavailable,   ///< peer or device does not answer, port in use
+  Refused,       ///< a command that the rules do not allow now
+  Degenerate,    ///< data too poor for the algorithm
   Timeout,
-  Truncated,       ///< cut-off file or packet
+  Truncated,  ///< cut-off file or packet
   VersionMismatch,
-  Storage,         ///< disk full, not writable
-  Fault,           ///< a device reports a fault
+  Storage,  ///< disk full, not writable
+  Fault,    ///< a device reports a fault
 };
 [[nodiscard]] std::string_view toString(ErrorCode code);
 
@@ -33,7 +33,8 @@ template <class T>
 using Result = tl::expected<T, Error>;
 
 template <class... Args>
-[[nodiscard]] tl::unexpected<Error> makeError(ErrorCode code, fmt::format_string<Args...> format, Args&&... args) {
+[[nodiscard]] tl::unexpected<Error> makeError(ErrorCode code, fmt::format_string<Args...> format,
+                                              Args&&... args) {
   return tl::make_unexpected(Error{code, fmt::format(format, std::forward<Args>(args)...)});
 }
 

@@ -7,8 +7,8 @@
 
 namespace kiln {
 
-/// A mailbox for one value: the newest wins, the reader never blocks the writer for longer than a copy.
-/// Thread-safe. Overwritten unread values are counted (drop policy: oldest).
+/// A mailbox for one value: the newest wins, the reader never blocks the writer for longer than a
+/// copy. Thread-safe. Overwritten unread values are counted (drop policy: oldest).
 template <class T>
 class LatestValue {
  public:

@@ -1,23 +1,25 @@
 #include "common/core/log.h"
 
+#include <mutex>
+
 #include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/base_sink.h>
 #include <spdlog/sinks/dist_sink.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
-#include <mutex>
-
 namespace kiln {
 namespace {
 
 class CallbackSink final : public spdlog::sinks::base_sink<std::mutex> {
  public:
-  explicit CallbackSink(std::function<void(const LogRecord&)> callback) : callback_(std::move(callback)) {}
+  explicit CallbackSink(std::function<void(const LogRecord&)> callback)
+      : callback_(std::move(callback)) {}
 
  private:
   void sink_it_(const spdlog::details::log_msg& message) override {
-    callback_({std::string(message.logger_name.data(), message.logger_name.size()), static_cast<int>(message.level),
+    callback_({std::string(message.logger_name.data(), message.logger_name.size()),
+               static_cast<int>(message.level),
                std::string(message.payload.data(), message.payload.size())});
   }
   void flush_() override {}

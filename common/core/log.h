@@ -1,15 +1,15 @@
 #pragma once
 
-#include <spdlog/logger.h>
-
 #include <functional>
 #include <memory>
 #include <string>
 
+#include <spdlog/logger.h>
+
 namespace kiln {
 
-/// The named logger of one module, e.g. logger("control.base"). Created on first use; thread-safe. Level `error`
-/// means that an operator must act.
+/// The named logger of one module, e.g. logger("control.base"). Created on first use; thread-safe.
+/// Level `error` means that an operator must act.
 [[nodiscard]] std::shared_ptr<spdlog::logger> logger(const std::string& name);
 
 struct LogRecord {
@@ -18,8 +18,8 @@ struct LogRecord {
   std::string text;
 };
 
-/// Adds a sink that every logger writes to (the station's event log). The callback runs on the logging thread,
-/// must be quick and must not log.
+/// Adds a sink that every logger writes to (the station's event log). The callback runs on the
+/// logging thread, must be quick and must not log.
 void addLogSink(std::function<void(const LogRecord&)> sink);
 
 /// 0 trace, 1 debug, 2 info, 3 warning, 4 error. Applies to present and future loggers.

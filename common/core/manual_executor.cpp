@@ -20,10 +20,12 @@ bool ManualExecutor::post(Job job) {
   return true;
 }
 
-void ManualExecutor::every(Duration period, std::string name, int priority, std::function<void(Stamp)> tick) {
+void ManualExecutor::every(Duration period, std::string name, int priority,
+                           std::function<void(Stamp)> tick) {
   TickStatistics statistics;
   statistics.name = std::move(name);
-  periodics_.push_back(std::make_unique<Periodic>(Periodic{period, priority, std::move(tick), statistics}));
+  periodics_.push_back(
+      std::make_unique<Periodic>(Periodic{period, priority, std::move(tick), statistics}));
   schedulePeriodic(periodics_.size() - 1, clock_.now() + period);
 }
 

@@ -9,20 +9,24 @@
 
 namespace kiln {
 
-/// Runs every tick and job on the calling thread under a ManualClock: the base of lockstep missions, replay and
-/// tests. Events are ordered by (time, priority, sequence), so the same inputs give the same run, byte for byte.
-/// Thread-compatible; confined to the thread that calls runUntil().
+/// Runs every tick and job on the calling thread under a ManualClock: the base of lockstep
+/// missions, replay and tests. Events are ordered by (time, priority, sequence), so the same inputs
+/// give the same run, byte for byte. Thread-compatible; confined to the thread that calls
+/// runUntil().
 class ManualExecutor final : public Executor {
  public:
   explicit ManualExecutor(ManualClock& clock) : clock_(clock) {}
 
-  /// The job's work runs at once, its delivery at now + modelled_latency. At most one job of a kind is in flight.
+  /// The job's work runs at once, its delivery at now + modelled_latency. At most one job of a kind
+  /// is in flight.
   bool post(Job job) override;
-  void every(Duration period, std::string name, int priority, std::function<void(Stamp)> tick) override;
+  void every(Duration period, std::string name, int priority,
+             std::function<void(Stamp)> tick) override;
   /// One-shot event, for tests and scripted faults.
   void at(Stamp time, int priority, std::function<void()> event);
 
-  /// Executes all events up to and including `until`, advancing the clock to each event and finally to `until`.
+  /// Executes all events up to and including `until`, advancing the clock to each event and finally
+  /// to `until`.
   void runUntil(Stamp until);
   /// Time of the earliest pending event, or Stamp::max() when nothing is pending.
   [[nodiscard]] Stamp nextEvent() const;

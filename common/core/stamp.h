@@ -5,8 +5,8 @@
 
 namespace kiln {
 
-/// Tag type of robot time: nanoseconds since the robot's own epoch (boot, simulation start or recording
-/// start). It has no now(): a Clock& is injected instead.
+/// Tag type of robot time: nanoseconds since the robot's own epoch (boot, simulation start or
+/// recording start). It has no now(): a Clock& is injected instead.
 struct RobotClock {
   using rep = std::int64_t;
   using period = std::nano;
@@ -19,7 +19,9 @@ using Stamp = RobotClock::time_point;
 using Duration = RobotClock::duration;
 
 /// Seconds as a double, for formulas and display only; never accumulate it.
-[[nodiscard]] constexpr double toSeconds(Duration d) { return static_cast<double>(d.count()) * 1e-9; }
+[[nodiscard]] constexpr double toSeconds(Duration d) {
+  return static_cast<double>(d.count()) * 1e-9;
+}
 [[nodiscard]] constexpr double toSeconds(Stamp t) { return toSeconds(t.time_since_epoch()); }
 
 /// Rounds to the nearest nanosecond.

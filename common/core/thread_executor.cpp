@@ -1,8 +1,8 @@
 #include "common/core/thread_executor.h"
 
-#include <pthread.h>
-
 #include <algorithm>
+
+#include <pthread.h>
 
 #include "common/core/check.h"
 
@@ -13,7 +13,8 @@ void nameThisThread(const std::string& name) {
 }
 }  // namespace
 
-ThreadExecutor::ThreadExecutor(const Clock& clock, int pool_threads) : clock_(clock), pool_threads_(pool_threads) {}
+ThreadExecutor::ThreadExecutor(const Clock& clock, int pool_threads)
+    : clock_(clock), pool_threads_(pool_threads) {}
 
 ThreadExecutor::~ThreadExecutor() { stop(); }
 
@@ -30,7 +31,8 @@ bool ThreadExecutor::post(Job job) {
   return true;
 }
 
-void ThreadExecutor::every(Duration period, std::string name, int /*priority*/, std::function<void(Stamp)> tick) {
+void ThreadExecutor::every(Duration period, std::string name, int /*priority*/,
+                           std::function<void(Stamp)> tick) {
   KILN_CHECK(threads_.empty(), "every() after start()", name);
   TickStatistics statistics;
   statistics.name = std::move(name);
@@ -39,7 +41,8 @@ void ThreadExecutor::every(Duration period, std::string name, int /*priority*/, 
 
 void ThreadExecutor::start() {
   for (auto& periodic : periodics_) {
-    threads_.emplace_back([this, &periodic = *periodic](std::stop_token stop) { runPeriodic(stop, periodic); });
+    threads_.emplace_back(
+        [this, &periodic = *periodic](std::stop_token stop) { runPeriodic(stop, periodic); });
   }
   for (int i = 0; i < pool_threads_; ++i) {
     threads_.emplace_back([this, i](std::stop_token stop) {

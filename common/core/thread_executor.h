@@ -12,8 +12,8 @@
 
 namespace kiln {
 
-/// Real time: one named thread a tick, a small pool for jobs. every() before start(); post() at any time and from
-/// any thread. stop() (or the destructor) joins all threads; nothing is detached.
+/// Real time: one named thread a tick, a small pool for jobs. every() before start(); post() at any
+/// time and from any thread. stop() (or the destructor) joins all threads; nothing is detached.
 class ThreadExecutor final : public Executor {
  public:
   ThreadExecutor(const Clock& clock, int pool_threads);
@@ -22,7 +22,8 @@ class ThreadExecutor final : public Executor {
   ThreadExecutor& operator=(const ThreadExecutor&) = delete;
 
   bool post(Job job) override;
-  void every(Duration period, std::string name, int priority, std::function<void(Stamp)> tick) override;
+  void every(Duration period, std::string name, int priority,
+             std::function<void(Stamp)> tick) override;
   void start();
   void stop();
   [[nodiscard]] std::vector<TickStatistics> statistics() const override;

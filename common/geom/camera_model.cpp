@@ -11,7 +11,8 @@ CameraModel CameraModel::fromHorizontalFov(int width, int height, double hfov_ra
 
 std::optional<Eigen::Vector2d> CameraModel::project(const Eigen::Vector3d& p_camera) const {
   if (!(p_camera.z() > 1e-9)) return std::nullopt;
-  return Eigen::Vector2d(fx * p_camera.x() / p_camera.z() + cx, fy * p_camera.y() / p_camera.z() + cy);
+  return Eigen::Vector2d(fx * p_camera.x() / p_camera.z() + cx,
+                         fy * p_camera.y() / p_camera.z() + cy);
 }
 
 Eigen::Vector3d CameraModel::ray(const Eigen::Vector2d& pixel) const {

@@ -1,11 +1,13 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <optional>
+
+#include <Eigen/Core>
 
 namespace kiln {
 
-/// Pinhole camera. Pixel (0, 0) is the centre of the top-left pixel; camera axes X right, Y down, Z viewing.
+/// Pinhole camera. Pixel (0, 0) is the centre of the top-left pixel; camera axes X right, Y down, Z
+/// viewing.
 struct CameraModel {
   int width = 0;
   int height = 0;
@@ -16,7 +18,8 @@ struct CameraModel {
 
   /// Square pixels, centred principal point, from the horizontal field of view.
   [[nodiscard]] static CameraModel fromHorizontalFov(int width, int height, double hfov_rad);
-  /// @return nullopt if the point is not in front of the camera. The pixel may lie outside the image.
+  /// @return nullopt if the point is not in front of the camera. The pixel may lie outside the
+  /// image.
   [[nodiscard]] std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& p_camera) const;
   /// Unit viewing ray through a pixel, in the camera frame.
   [[nodiscard]] Eigen::Vector3d ray(const Eigen::Vector2d& pixel) const;

@@ -30,7 +30,8 @@ Eigen::Isometry3d toIsometry(const Pose2& X_a_b) {
 }
 
 Pose2 projectToGround(const Eigen::Isometry3d& X_a_b) {
-  return {X_a_b.translation().x(), X_a_b.translation().y(), std::atan2(X_a_b.linear()(1, 0), X_a_b.linear()(0, 0))};
+  return {X_a_b.translation().x(), X_a_b.translation().y(),
+          std::atan2(X_a_b.linear()(1, 0), X_a_b.linear()(0, 0))};
 }
 
 Eigen::Isometry3d makePose(const Eigen::Vector3d& p, const Eigen::Vector3d& rpy_rad) {
@@ -53,12 +54,15 @@ Eigen::Matrix3d frameFromXAndUp(const Eigen::Vector3d& x_axis, const Eigen::Vect
   return R;
 }
 
-double rotationAngle(const Eigen::Isometry3d& X_a_b) { return Eigen::AngleAxisd(X_a_b.linear()).angle(); }
+double rotationAngle(const Eigen::Isometry3d& X_a_b) {
+  return Eigen::AngleAxisd(X_a_b.linear()).angle();
+}
 
 Eigen::Isometry3d interpolate(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, double s) {
   Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
   X.translation() = (1.0 - s) * a.translation() + s * b.translation();
-  X.linear() = Eigen::Quaterniond(a.linear()).slerp(s, Eigen::Quaterniond(b.linear())).toRotationMatrix();
+  X.linear() =
+      Eigen::Quaterniond(a.linear()).slerp(s, Eigen::Quaterniond(b.linear())).toRotationMatrix();
   return X;
 }
 

@@ -1,39 +1,49 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "common/core/stamp.h"
 
 namespace kiln {
 
 /// Why a warm blob is not taken for the fire.
-enum class HeatRejection { None, TooCool, Reflection, Flame, Frozen, TooSmall, OutsideGeofence, NotLinear };
+enum class HeatRejection {
+  None,
+  TooCool,
+  Reflection,
+  Flame,
+  Frozen,
+  TooSmall,
+  OutsideGeofence,
+  NotLinear
+};
 [[nodiscard]] std::string_view toString(HeatRejection rejection);
 
 /// A warm blob in one thermal image. Pixels; kelvin.
 struct HeatBlob {
-  double u = 0.0, v = 0.0;             ///< intensity-weighted centre
+  double u = 0.0, v = 0.0;                         ///< intensity-weighted centre
   int u_min = 0, v_min = 0, u_max = 0, v_max = 0;  ///< bounding box, inclusive
   double peak_k = 0.0;
   double background_k = 0.0;
-  double half_max_area_px = 0.0;       ///< area above half of (peak - background)
+  double half_max_area_px = 0.0;  ///< area above half of (peak - background)
   HeatRejection rejection = HeatRejection::None;
-  std::string reason;                  ///< one sentence for the operator when rejected
+  std::string reason;  ///< one sentence for the operator when rejected
 };
 
 /// Result of one thermal image.
 struct HeatDetections {
-  Stamp stamp;                         ///< of the image
+  Stamp stamp;  ///< of the image
   std::uint64_t image_seq = 0;
-  bool usable = true;                  ///< false: frozen or not TLinear; `refusal` says why
+  bool usable = true;  ///< false: frozen or not TLinear; `refusal` says why
   std::string refusal;
   double threshold_k = 0.0;
   double max_k = 0.0;
-  std::vector<HeatBlob> blobs;         ///< accepted first, by peak
-  double cost_ms = 0.0;                ///< filled outside lockstep only
+  std::vector<HeatBlob> blobs;  ///< accepted first, by peak
+  double cost_ms = 0.0;         ///< filled outside lockstep only
 };
 
 /// Position of the heat source, fused over the sweep. In `map`.
@@ -43,9 +53,9 @@ struct FireEstimate {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();
   int views = 0;
   double peak_k = 0.0;
-  double range_m = 0.0;                ///< from the thermal camera at the last view
-  double baseline_range_m = 0.0;       ///< the paper's bounding-box method, for comparison
-  std::string place;                   ///< configured fire place it belongs to, may be empty
+  double range_m = 0.0;           ///< from the thermal camera at the last view
+  double baseline_range_m = 0.0;  ///< the paper's bounding-box method, for comparison
+  std::string place;              ///< configured fire place it belongs to, may be empty
 };
 
 }  // namespace kiln

@@ -25,50 +25,76 @@ void PointCloud::push(float px, float py, float pz, std::uint8_t i, std::uint8_t
 
 std::string_view toString(HeatRejection rejection) {
   switch (rejection) {
-    case HeatRejection::None: return "none";
-    case HeatRejection::TooCool: return "too cool";
-    case HeatRejection::Reflection: return "reflection";
-    case HeatRejection::Flame: return "flame";
-    case HeatRejection::Frozen: return "frozen";
-    case HeatRejection::TooSmall: return "too small";
-    case HeatRejection::OutsideGeofence: return "outside geofence";
-    case HeatRejection::NotLinear: return "not linear";
+    case HeatRejection::None:
+      return "none";
+    case HeatRejection::TooCool:
+      return "too cool";
+    case HeatRejection::Reflection:
+      return "reflection";
+    case HeatRejection::Flame:
+      return "flame";
+    case HeatRejection::Frozen:
+      return "frozen";
+    case HeatRejection::TooSmall:
+      return "too small";
+    case HeatRejection::OutsideGeofence:
+      return "outside geofence";
+    case HeatRejection::NotLinear:
+      return "not linear";
   }
   return "unknown";
 }
 
 std::string_view toString(StatusWord word) {
   switch (word) {
-    case StatusWord::NoLink: return "NO LINK";
-    case StatusWord::NotReady: return "NOT READY";
-    case StatusWord::Ready: return "READY";
-    case StatusWord::Auto: return "AUTO";
-    case StatusWord::Supervised: return "SUPERVISED";
-    case StatusWord::Teleop: return "TELEOP";
-    case StatusWord::Paused: return "PAUSED";
-    case StatusWord::Stopped: return "STOPPED";
+    case StatusWord::NoLink:
+      return "NO LINK";
+    case StatusWord::NotReady:
+      return "NOT READY";
+    case StatusWord::Ready:
+      return "READY";
+    case StatusWord::Auto:
+      return "AUTO";
+    case StatusWord::Supervised:
+      return "SUPERVISED";
+    case StatusWord::Teleop:
+      return "TELEOP";
+    case StatusWord::Paused:
+      return "PAUSED";
+    case StatusWord::Stopped:
+      return "STOPPED";
   }
   return "?";
 }
 
 std::string_view toString(Mode mode) {
   switch (mode) {
-    case Mode::None: return "none";
-    case Mode::Autonomous: return "autonomous";
-    case Mode::Supervised: return "supervised";
-    case Mode::Teleop: return "teleop";
-    case Mode::Stopped: return "stopped";
+    case Mode::None:
+      return "none";
+    case Mode::Autonomous:
+      return "autonomous";
+    case Mode::Supervised:
+      return "supervised";
+    case Mode::Teleop:
+      return "teleop";
+    case Mode::Stopped:
+      return "stopped";
   }
   return "?";
 }
 
 std::string_view toString(ArmSafetyMode mode) {
   switch (mode) {
-    case ArmSafetyMode::Normal: return "normal";
-    case ArmSafetyMode::Reduced: return "reduced";
-    case ArmSafetyMode::ProtectiveStop: return "protective stop";
-    case ArmSafetyMode::EmergencyStop: return "emergency stop";
-    case ArmSafetyMode::Fault: return "fault";
+    case ArmSafetyMode::Normal:
+      return "normal";
+    case ArmSafetyMode::Reduced:
+      return "reduced";
+    case ArmSafetyMode::ProtectiveStop:
+      return "protective stop";
+    case ArmSafetyMode::EmergencyStop:
+      return "emergency stop";
+    case ArmSafetyMode::Fault:
+      return "fault";
   }
   return "?";
 }
@@ -83,7 +109,9 @@ struct NameOf {
   std::string_view operator()(const ChangeState&) const { return "change_state"; }
   std::string_view operator()(const SetMode&) const { return "set_mode"; }
   std::string_view operator()(const ClearStop&) const { return "clear_stop"; }
-  std::string_view operator()(const ReleaseProtectiveStop&) const { return "release_protective_stop"; }
+  std::string_view operator()(const ReleaseProtectiveStop&) const {
+    return "release_protective_stop";
+  }
   std::string_view operator()(const ResetRobot&) const { return "reset"; }
   std::string_view operator()(const SetSpeedScale&) const { return "set_speed_scale"; }
   std::string_view operator()(const CancelMacro&) const { return "cancel_macro"; }

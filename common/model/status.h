@@ -10,30 +10,39 @@
 namespace kiln {
 
 enum class Environment : std::uint8_t { Live, Sim, Replay };
-enum class StatusWord : std::uint8_t { NoLink, NotReady, Ready, Auto, Supervised, Teleop, Paused, Stopped };
-[[nodiscard]] std::string_view toString(StatusWord word);   ///< "NOT READY", ...
+enum class StatusWord : std::uint8_t {
+  NoLink,
+  NotReady,
+  Ready,
+  Auto,
+  Supervised,
+  Teleop,
+  Paused,
+  Stopped
+};
+[[nodiscard]] std::string_view toString(StatusWord word);  ///< "NOT READY", ...
 [[nodiscard]] std::string_view toString(Mode mode);
 [[nodiscard]] std::string_view toString(ArmSafetyMode mode);
 
 enum class AlarmLevel : std::uint8_t { Advisory, Caution, Warning };
 struct Alarm {
-  std::string id;                      ///< stable, e.g. "arm.protective_stop"
+  std::string id;  ///< stable, e.g. "arm.protective_stop"
   AlarmLevel level = AlarmLevel::Caution;
-  std::string text;                    ///< what and where
-  std::string action;                  ///< what to do
+  std::string text;    ///< what and where
+  std::string action;  ///< what to do
   Stamp since;
   bool active = true;
   bool acknowledged = false;
 };
 
-struct Check {                         ///< preflight row
+struct Check {  ///< preflight row
   std::string name;
   bool ok = false;
   std::string detail;
 };
 
 struct LeaseStatus {
-  std::string holder_client;           ///< empty = free
+  std::string holder_client;  ///< empty = free
   std::string holder_name;
   std::uint64_t epoch = 0;
   double expires_in_s = 0.0;
@@ -43,23 +52,23 @@ struct LeaseStatus {
 };
 struct StopStatus {
   bool latched = false;
-  std::string source;                  ///< who or what
+  std::string source;  ///< who or what
   Stamp since;
-  bool standstill_proven = false;      ///< wheels, joints and pump currents all at rest, measured
+  bool standstill_proven = false;  ///< wheels, joints and pump currents all at rest, measured
 };
 struct MacroInfo {
-  std::string name;                    ///< "spray fire 1"
+  std::string name;  ///< "spray fire 1"
   std::string doc;
   double duration_s = 0.0;
   double water_l = 0.0;
-  std::string start_condition;         ///< "start within 5 cm"
+  std::string start_condition;  ///< "start within 5 cm"
 };
 struct MacroStatus {
-  std::string running;                 ///< empty = none
+  std::string running;  ///< empty = none
   int step = 0, steps = 0;
   std::string step_text;
-  double progress = 0.0;               ///< 0..1
-  std::string last_result;             ///< "done", "cancelled: released", "failed: ..."
+  double progress = 0.0;    ///< 0..1
+  std::string last_result;  ///< "done", "cancelled: released", "failed: ..."
 };
 struct WaterStatus {
   std::array<double, 2> duty{};
@@ -67,7 +76,10 @@ struct WaterStatus {
   std::array<double, 2> tank_l_est{};  ///< estimated litres left, left and right
   double sprayed_l_est = 0.0;          ///< whole mission
 };
-struct DropCount { std::string topic; std::uint64_t dropped = 0; };
+struct DropCount {
+  std::string topic;
+  std::uint64_t dropped = 0;
+};
 
 /// Everything the top bar, cards and 3D robot need. Published at 10 Hz.
 struct RobotStatus {
@@ -78,13 +90,13 @@ struct RobotStatus {
   Environment environment = Environment::Sim;
   Mode mode = Mode::None;
   StatusWord word = StatusWord::NotReady;
-  std::string reason;                  ///< why NOT READY / PAUSED / STOPPED
+  std::string reason;  ///< why NOT READY / PAUSED / STOPPED
   std::vector<Check> checks;
   LeaseStatus lease;
   StopStatus stop;
   Pose2 X_map_base;
   double pose_age_s = 0.0;
-  Twist2 twist;                        ///< measured, base frame
+  Twist2 twist;  ///< measured, base frame
   ArmState arm;
   Eigen::Isometry3d X_base_nozzle = Eigen::Isometry3d::Identity();
   std::array<double, 4> wheel_steer_rad{};
@@ -126,7 +138,7 @@ struct JetPreview {
 
 struct LogLine {
   Stamp stamp;
-  int level = 2;                       ///< spdlog numbering
+  int level = 2;  ///< spdlog numbering
   std::string logger;
   std::string text;
 };

@@ -26,23 +26,26 @@ struct BoxConfig {
   void visit(ConfigArchive& a);
 };
 
-/// Nominal geometry of Bob: what the autonomy and the station believe. The simulator perturbs its own copy.
-/// File: resources/robot_model/bob.yaml. Frames: common/geom/frames.h.
+/// Nominal geometry of Bob: what the autonomy and the station believe. The simulator perturbs its
+/// own copy. File: resources/robot_model/bob.yaml. Frames: common/geom/frames.h.
 struct RobotGeometry {
-  double length_m = 1.9, width_m = 1.4;         ///< footprint
+  double length_m = 1.9, width_m = 1.4;  ///< footprint
   double wheel_radius_m = 0.085;
-  double wheel_x_m = 0.70, wheel_y_m = 0.58;    ///< steering axes at (+-x, +-y)
+  double wheel_x_m = 0.70, wheel_y_m = 0.58;  ///< steering axes at (+-x, +-y)
   double steer_limit_deg = 180.0;
-  double steer_rate_deg_s = 174.0;              ///< 29 rpm
-  std::vector<BoxConfig> body;                  ///< deck, tanks, storage: in base; for collision, drawing, self filter
+  double steer_rate_deg_s = 174.0;  ///< 29 rpm
+  std::vector<BoxConfig>
+      body;  ///< deck, tanks, storage: in base; for collision, drawing, self filter
   PoseConfig X_base_armbase;
   PoseConfig X_flange_lidar, X_flange_thermal, X_flange_rgb, X_flange_nozzle, X_flange_tool;
   PoseConfig X_base_operatorcamera;
-  std::vector<BoxConfig> head;                  ///< end-effector boxes, in flange
-  std::vector<double> link_radius_m{0.10, 0.09, 0.07, 0.07, 0.06, 0.06};  ///< capsules along the arm's links
-  std::vector<double> q_park_deg{0, 0, 0, 0, 0, 0};   ///< arm folded above the deck, for driving through doors
+  std::vector<BoxConfig> head;  ///< end-effector boxes, in flange
+  std::vector<double> link_radius_m{0.10, 0.09, 0.07,
+                                    0.07, 0.06, 0.06};  ///< capsules along the arm's links
+  std::vector<double> q_park_deg{0, 0, 0, 0,
+                                 0, 0};  ///< arm folded above the deck, for driving through doors
   std::vector<double> q_drive_deg{0, 0, 0, 0, 0, 0};  ///< LiDAR upright and clear, for driving
-  UrKinematics arm = UrKinematics::ur10e();     ///< not in the file
+  UrKinematics arm = UrKinematics::ur10e();           ///< not in the file
 
   void visit(ConfigArchive& a);
   [[nodiscard]] static Vector6d radians(const std::vector<double>& q_deg);

@@ -20,7 +20,8 @@ std::array<Eigen::Isometry3d, 6> UrKinematics::frames(const Vector6d& q) const {
   Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
   for (std::size_t i = 0; i < 6; ++i) {
     X = X * Eigen::AngleAxisd(q[static_cast<Eigen::Index>(i)], Eigen::Vector3d::UnitZ()) *
-        Eigen::Translation3d(a[i], 0.0, d[i]) * Eigen::AngleAxisd(alpha[i], Eigen::Vector3d::UnitX());
+        Eigen::Translation3d(a[i], 0.0, d[i]) *
+        Eigen::AngleAxisd(alpha[i], Eigen::Vector3d::UnitX());
     out[i] = X;
   }
   return out;
@@ -33,8 +34,10 @@ Eigen::Matrix<double, 6, 6> UrKinematics::jacobian(const Vector6d& q) const {
   Eigen::Matrix<double, 6, 6> J;
   const Eigen::Vector3d tip = X[5].translation();
   for (int i = 0; i < 6; ++i) {
-    const Eigen::Vector3d axis = i == 0 ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d(X[i - 1].linear().col(2));
-    const Eigen::Vector3d origin = i == 0 ? Eigen::Vector3d::Zero() : Eigen::Vector3d(X[i - 1].translation());
+    const Eigen::Vector3d axis =
+        i == 0 ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d(X[i - 1].linear().col(2));
+    const Eigen::Vector3d origin =
+        i == 0 ? Eigen::Vector3d::Zero() : Eigen::Vector3d(X[i - 1].translation());
     J.block<3, 1>(0, i) = axis.cross(tip - origin);
     J.block<3, 1>(3, i) = axis;
   }

@@ -1,0 +1,87 @@
+#include "robot/app/mission_report.h"
+
+#include <nlohmann/json.hpp>
+
+#include "common/core/atomic_file.h"
+
+namespace kiln {
+namespace {
+
+using nlohmann::json;
+
+const char* causeName(TransitionCause cause) {
+  switch (cause) {
+    case TransitionCause::Normal:
+      return "normal";
+    case TransitionCause::Timeout:
+      return "timeout";
+    case TransitionCause::Operator:
+      return "operator";
+    case TransitionCause::Resume:
+      return "resume";
+    case TransitionCause::Start:
+      return "start";
+  }
+  return "unknown";
+}
+
+/// Milliseconds are enough for a reader and keep the file free of rounding noise.
+double rounded(Duration d) { return static_cast<double>(d.count() / 1'000'000) / 1000.0; }
+
+}  // namespace
+
+void MissionReport::observe(const FsmStatus& status) {
+  last_ = status;
+  for (const FsmHistoryEntry& entry : status.history) {
+    if (states_.empty() || entry.step > states_.back().step) {
+      states_.push_back(entry);
+    } else if (entry.step == states_.back().step) {
+      states_.back() = entry;  // now it may have been left
+    } else if (states_.size() > 1 && entry.step == states_[states_.size() - 2].step) {
+      states_[states_.size() - 2] = entry;
+    }
+  }
+}
+
+void MissionReport::addHeatEstimate(const HeatRecord& record) {
+  if (heat_.empty() || record.stamp > heat_.back().stamp) heat_.push_back(record);
+}
+
+std::string MissionReport::toJson(Stamp now) const {
+  json states = json::array();
+  for (const FsmHistoryEntry& entry : states_) {
+    const bool current = entry.left == Stamp{};
+    states.push_back({{"name", entry.state},
+                      {"enter", rounded(entry.entered - start_)},
+                      {"leave", rounded((current ? now : entry.left) - start_)},
+                      {"cause", causeName(entry.cause)},
+                      {"note", entry.note}});
+  }
+  json heat = json::array();
+  for (const HeatRecord& record : heat_) {
+    heat.push_back(
+        {{"t", toSeconds(record.stamp)},
+         {"p_thermal", {record.p_thermal.x(), record.p_thermal.y(), record.p_thermal.z()}},
+         {"range_m", record.range_m},
+         {"baseline_range_m", record.baseline_range_m},
+         {"views", record.views},
+         {"place", record.place}});
+  }
+  const std::string outcome = !last_.terminal ? "unfinished" : last_.success ? "success" : "failed";
+  const json report{{"mission", mission_},
+                    {"version", KILN_VERSION},
+                    {"outcome", outcome},
+                    {"reason", last_.display_text},
+                    {"mission_s", rounded(now - start_)},
+                    {"litres_est", litres_est_},
+                    {"resets", resets_},
+                    {"states", states},
+                    {"heat_estimates", heat}};
+  return report.dump(2) + "\n";
+}
+
+Result<void> MissionReport::write(const std::string& path, Stamp now) const {
+  return writeFileAtomically(path, toJson(now));
+}
+
+}  // namespace kiln

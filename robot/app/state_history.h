@@ -1,0 +1,38 @@
+#pragma once
+
+#include <deque>
+#include <mutex>
+#include <optional>
+
+#include "common/core/stamp.h"
+#include "common/geom/pose.h"
+
+namespace kiln {
+
+/// Joint angles and odometry at one instant.
+struct RobotSample {
+  Stamp stamp;
+  Vector6d q = Vector6d::Zero();
+  Pose2 X_odom_base;
+};
+
+/// The last seconds of joint angles and odometry, so that a sensor frame can be placed where the
+/// sensor was when it was taken. Written by the control thread, read by perception jobs;
+/// thread-safe.
+class StateHistory {
+ public:
+  explicit StateHistory(Duration span = std::chrono::seconds(3)) : span_(span) {}
+  void add(const RobotSample& sample);
+  /// Linear interpolation; the newest sample when `stamp` is at most 50 ms ahead of it; nullopt
+  /// outside.
+  [[nodiscard]] std::optional<RobotSample> at(Stamp stamp) const;
+  [[nodiscard]] std::optional<RobotSample> newest() const;
+  void clear();
+
+ private:
+  Duration span_;
+  mutable std::mutex mutex_;
+  std::deque<RobotSample> samples_;
+};
+
+}  // namespace kiln

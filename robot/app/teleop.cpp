@@ -1,0 +1,108 @@
+#include "robot/app/teleop.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Dense>
+
+namespace kiln {
+namespace {
+
+double unit(double value) { return std::clamp(value, -1.0, 1.0); }
+
+/// Shortens `v` to at most `limit`, keeping its direction.
+Eigen::Vector3d limited(const Eigen::Vector3d& v, double limit) {
+  const double norm = v.norm();
+  return norm > limit ? Eigen::Vector3d(v * (limit / norm)) : v;
+}
+
+}  // namespace
+
+void Teleop::Config::visit(ConfigArchive& a) {
+  a.field("max_speed_mps", max_speed_mps, "m/s", 0, 4, "base speed at full stick and scale 1");
+  a.field("max_yaw_rate_radps", max_yaw_rate_radps, "rad/s", 0, 3, "base turn rate at full stick");
+  a.field("max_tool_speed_mps", max_tool_speed_mps, "m/s", 0, 1, "tool speed");
+  a.field("max_tool_rate_radps", max_tool_rate_radps, "rad/s", 0, 2, "tool turn rate");
+  a.field("max_joint_rate_radps", max_joint_rate_radps, "rad/s", 0, 3, "joint speed in a jog");
+  a.field("guard_force_n", guard_force_n, "N", 5, 150, "an arm jog stops at this contact force");
+  a.field("damping", damping, "", 0.001, 1, "damping of the Cartesian inverse near singularities");
+}
+
+Teleop::Teleop(Config config, const RobotGeometry& robot, BaseController& base, ArmController& arm,
+               PumpController& pumps)
+    : config_(config), robot_(robot), base_(base), arm_(arm), pumps_(pumps) {}
+
+void Teleop::setSpeedScale(double scale) { speed_scale_ = std::clamp(scale, 0.05, 1.0); }
+
+void Teleop::jogBase(const JogBase& jog, Stamp received, double link_scale) {
+  const double scale = speed_scale_ * link_scale;
+  BaseSetpoint setpoint;
+  setpoint.stamp = received;
+  // A full stick asks for the full teleop speed; the operator's speed scale and a slow link shrink
+  // it.
+  setpoint.twist.vx_mps =
+      unit(jog.twist.vx_mps / config_.max_speed_mps) * config_.max_speed_mps * scale;
+  setpoint.twist.vy_mps =
+      unit(jog.twist.vy_mps / config_.max_speed_mps) * config_.max_speed_mps * scale;
+  setpoint.twist.wz_radps =
+      unit(jog.twist.wz_radps / config_.max_yaw_rate_radps) * config_.max_yaw_rate_radps * scale;
+  base_.setpoint(setpoint);
+}
+
+Vector6d Teleop::jointRates(const JogArm& jog, const Vector6d& q, double scale) const {
+  if (jog.frame == JogFrame::Joint) {
+    return (jog.velocity * scale)
+        .cwiseMax(-config_.max_joint_rate_radps)
+        .cwiseMin(config_.max_joint_rate_radps);
+  }
+  // To arm_base: the Base frame has the same axes up to the mount's rotation, the Tool frame turns
+  // with the flange.
+  const Eigen::Matrix3d R_armbase_frame =
+      jog.frame == JogFrame::Tool
+          ? Eigen::Matrix3d(robot_.arm.forward(q).linear())
+          : Eigen::Matrix3d(robot_.X_base_armbase.pose().linear().transpose());
+  Vector6d twist;
+  twist.head<3>() =
+      R_armbase_frame * limited(jog.velocity.head<3>(), config_.max_tool_speed_mps) * scale;
+  twist.tail<3>() =
+      R_armbase_frame * limited(jog.velocity.tail<3>(), config_.max_tool_rate_radps) * scale;
+  const Eigen::Matrix<double, 6, 6> J = robot_.arm.jacobian(q);
+  const Eigen::Matrix<double, 6, 6> damped =
+      J * J.transpose() +
+      config_.damping * config_.damping * Eigen::Matrix<double, 6, 6>::Identity();
+  Vector6d qd = J.transpose() * damped.ldlt().solve(twist);
+  const double worst = qd.cwiseAbs().maxCoeff();
+  if (worst > config_.max_joint_rate_radps) qd *= config_.max_joint_rate_radps / worst;
+  return qd;
+}
+
+void Teleop::jogArm(const JogArm& jog, const Vector6d& q, Stamp received, double link_scale) {
+  ArmSetpoint setpoint;
+  setpoint.kind = ArmSetpoint::Kind::JointVelocity;
+  setpoint.stamp = received;
+  setpoint.qd = jointRates(jog, q, speed_scale_ * link_scale);
+  setpoint.stop_force_n = config_.guard_force_n;
+  arm_.setpoint(setpoint);
+}
+
+void Teleop::holdPump(const HoldPump& hold, Stamp received) {
+  PumpSetpoint setpoint;
+  setpoint.stamp = received;
+  setpoint.duty = {std::clamp(hold.left, 0.0, 1.0), std::clamp(hold.right, 0.0, 1.0)};
+  pumps_.setpoint(setpoint);
+}
+
+void Teleop::releaseAll(Stamp now) {
+  BaseSetpoint base;
+  base.stamp = now;
+  base_.setpoint(base);
+  ArmSetpoint arm;
+  arm.kind = ArmSetpoint::Kind::Hold;
+  arm.stamp = now;
+  arm_.setpoint(arm);
+  PumpSetpoint pumps;
+  pumps.stamp = now;
+  pumps_.setpoint(pumps);
+}
+
+}  // namespace kiln

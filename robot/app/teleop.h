@@ -1,0 +1,51 @@
+#pragma once
+
+#include <string>
+
+#include "common/model/command.h"
+#include "common/robot_model/robot_geometry.h"
+#include "robot/control/arm_controller.h"
+#include "robot/control/base_controller.h"
+#include "robot/control/pump_controller.h"
+
+namespace kiln {
+
+/// Turns accepted hold-to-run commands into setpoints. Every setpoint carries the time it was
+/// received and lives 250 ms (pumps 200 ms): silence is a release, whatever happens to the sender.
+/// Confined to the mission thread.
+class Teleop {
+ public:
+  struct Config {
+    double max_speed_mps = 1.0;
+    double max_yaw_rate_radps = 0.6;
+    double max_tool_speed_mps = 0.25;
+    double max_tool_rate_radps = 0.6;
+    double max_joint_rate_radps = 0.6;
+    double guard_force_n = 80.0;
+    double damping = 0.05;  ///< of the Cartesian inverse near singularities
+    void visit(ConfigArchive& a);
+  };
+  Teleop(Config config, const RobotGeometry& robot, BaseController& base, ArmController& arm,
+         PumpController& pumps);
+
+  void setSpeedScale(double scale);
+  [[nodiscard]] double speedScale() const { return speed_scale_; }
+  void jogBase(const JogBase& jog, Stamp received, double link_scale);
+  /// @param q  measured joints, for Cartesian jogs.
+  void jogArm(const JogArm& jog, const Vector6d& q, Stamp received, double link_scale);
+  void holdPump(const HoldPump& hold, Stamp received);
+  /// Explicit zero on everything that teleoperation moves.
+  void releaseAll(Stamp now);
+
+ private:
+  [[nodiscard]] Vector6d jointRates(const JogArm& jog, const Vector6d& q, double scale) const;
+
+  Config config_;
+  const RobotGeometry& robot_;
+  BaseController& base_;
+  ArmController& arm_;
+  PumpController& pumps_;
+  double speed_scale_ = 0.35;
+};
+
+}  // namespace kiln

@@ -1,0 +1,27 @@
+#include "robot/evaluation/evaluation.h"
+
+namespace kiln {
+
+const std::vector<Evaluation>& evaluations() {
+  static const std::vector<Evaluation> all = {
+      {"fire",
+       "fire mission in the flat world, one process each for world and robot, lockstep",
+       evaluateFire,
+       {1, 20, 1, ""}},
+      {"fallback",
+       "litres delivered by hand commands alone over the operator link, real time",
+       evaluateFallback,
+       {1, 1, 1, ""}},
+      {"stop",
+       "time from STOP to latched, and from lost setpoints to ramp and pumps off, real time",
+       evaluateStop,
+       {1, 1, 1, ""}},
+      {"spray-calibration",
+       "measures the jet in the world and writes resources/config/spray_calibration.yaml",
+       calibrateSpray,
+       {1, 1, 1, ""}},
+  };
+  return all;
+}
+
+}  // namespace kiln

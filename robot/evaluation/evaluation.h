@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "robot/evaluation/figures.h"
+
+namespace kiln {
+
+/// What every sweep takes from the command line.
+struct SweepOptions {
+  int first_seed = 1;
+  int last_seed = 20;
+  int jobs = 1;     ///< runs side by side; 1 for an honest real_time_factor
+  std::string out;  ///< where a calibration writes its result
+};
+
+/// One named evaluation of scenario.md section 7 or a calibration.
+struct Evaluation {
+  std::string name;
+  std::string doc;
+  Result<EvaluationResult> (*run)(const SweepOptions&);
+  SweepOptions defaults;
+};
+[[nodiscard]] const std::vector<Evaluation>& evaluations();
+
+[[nodiscard]] Result<EvaluationResult> evaluateFire(const SweepOptions& options);
+[[nodiscard]] Result<EvaluationResult> evaluateFallback(const SweepOptions& options);
+[[nodiscard]] Result<EvaluationResult> evaluateStop(const SweepOptions& options);
+[[nodiscard]] Result<EvaluationResult> calibrateSpray(const SweepOptions& options);
+
+}  // namespace kiln

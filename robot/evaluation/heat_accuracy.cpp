@@ -1,0 +1,81 @@
+#include "robot/evaluation/heat_accuracy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include <Eigen/Geometry>
+#include <nlohmann/json.hpp>
+
+namespace kiln {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kMaxRange_m = 1.0;
+constexpr double kMaxAxisAngle_rad = 10.0 * M_PI / 180.0;
+
+struct TruthSample {
+  double t_s = 0.0;
+  Eigen::Vector3d p_map_thermal;
+  Eigen::Quaterniond q_map_thermal;
+};
+
+std::vector<TruthSample> parseTrace(const std::string& jsonl) {
+  std::vector<TruthSample> out;
+  std::istringstream lines(jsonl);
+  for (std::string line; std::getline(lines, line);) {
+    const json sample = json::parse(line, nullptr, false);
+    if (sample.is_discarded() || !sample.contains("thermal")) continue;
+    const auto& pose = sample["thermal"];  // [x, y, z, qw, qx, qy, qz] in map
+    out.push_back({sample["t"].get<double>(),
+                   {pose[0].get<double>(), pose[1].get<double>(), pose[2].get<double>()},
+                   Eigen::Quaterniond(pose[3].get<double>(), pose[4].get<double>(),
+                                      pose[5].get<double>(), pose[6].get<double>())});
+  }
+  return out;
+}
+
+/// True camera pose at a time, interpolated; false outside the trace.
+bool cameraAt(const std::vector<TruthSample>& trace, double t_s, Eigen::Isometry3d& X_map_thermal) {
+  const auto after =
+      std::lower_bound(trace.begin(), trace.end(), t_s,
+                       [](const TruthSample& sample, double t) { return sample.t_s < t; });
+  if (after == trace.begin() || after == trace.end()) return false;
+  const auto before = after - 1;
+  const double s = (t_s - before->t_s) / std::max(1e-9, after->t_s - before->t_s);
+  X_map_thermal = Eigen::Isometry3d::Identity();
+  X_map_thermal.translation() = (1 - s) * before->p_map_thermal + s * after->p_map_thermal;
+  X_map_thermal.linear() = before->q_map_thermal.slerp(s, after->q_map_thermal).toRotationMatrix();
+  return true;
+}
+
+}  // namespace
+
+void appendHeatErrors(const MissionRun& run, HeatErrors& errors) {
+  const json reports = json::parse(run.robot_json);
+  const auto trace = parseTrace(run.trace_jsonl);
+  const auto& plates = reports["truth"].value("plates_map", json::array());
+  for (const auto& estimate : reports["robot"].value("heat_estimates", json::array())) {
+    Eigen::Isometry3d X_map_thermal;
+    if (!cameraAt(trace, estimate["t"].get<double>(), X_map_thermal)) continue;
+    const auto& p = estimate["p_thermal"];
+    const Eigen::Vector3d estimated(p[0].get<double>(), p[1].get<double>(), p[2].get<double>());
+    for (const auto& plate : plates) {
+      const Eigen::Vector3d p_map(plate[0].get<double>(), plate[1].get<double>(),
+                                  plate[2].get<double>());
+      const Eigen::Vector3d truth = X_map_thermal.inverse() * p_map;
+      const double range = truth.norm();
+      const bool near = range <= kMaxRange_m &&
+                        std::acos(std::clamp(truth.z() / range, -1.0, 1.0)) <= kMaxAxisAngle_rad;
+      if (!near || (estimated - truth).norm() > 0.5)
+        continue;  // farther: an estimate of the other place
+      errors.range_m.push_back(std::abs(estimated.norm() - range));
+      errors.lateral_m.push_back(estimated.cross(truth.normalized()).norm());
+      errors.baseline_range_m.push_back(
+          std::abs(estimate["baseline_range_m"].get<double>() - range));
+    }
+  }
+}
+
+}  // namespace kiln

@@ -1,0 +1,144 @@
+#include <cstdio>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "common/config/resources.h"
+#include "common/core/atomic_file.h"
+#include "robot/evaluation/evaluation.h"
+#include "robot/evaluation/mission_run.h"
+
+namespace {
+
+using namespace kiln;
+
+constexpr int kSuccess = 0, kMissed = 1, kBadInput = 2;
+
+int fail(const Error& error) {
+  fmt::print(stderr, "kiln-eval: {}\n", error.message);
+  return kBadInput;
+}
+
+int runOneMission(const MissionRunOptions& options, const std::string& report) {
+  auto run = runMission(options);
+  if (!run) return fail(run.error());
+  if (!report.empty()) {
+    if (auto written = writeFileAtomically(report, run->report_json); !written)
+      return fail(written.error());
+    const nlohmann::json timing{{"wall_s", run->wall_s},
+                                {"real_time_factor", run->realTimeFactor()},
+                                {"sim_cpu_s", run->sim_cpu_s},
+                                {"robot_cpu_s", run->robot_cpu_s}};
+    if (auto written = writeFileAtomically(report + ".timing", timing.dump(2) + "\n"); !written)
+      return fail(written.error());
+  } else {
+    fmt::print("{}", run->report_json);
+  }
+  fmt::print(stderr, "{} in {:.1f} simulated s, {:.1f} x real time\n",
+             run->success ? "success" : "FAILED", run->simulated_s, run->realTimeFactor());
+  return run->success ? kSuccess : kMissed;
+}
+
+/// "3-7" or "5".
+bool parseSeeds(const std::string& text, SweepOptions& options) {
+  if (text.empty()) return true;
+  int first = 0, last = 0;
+  const int found = std::sscanf(text.c_str(), "%d-%d", &first, &last);
+  if (found < 1 || first < 0 || (found == 2 && last < first)) return false;
+  options.first_seed = first;
+  options.last_seed = found == 2 ? last : first;
+  return true;
+}
+
+/// tests/bench/goals.yaml lives beside resources/ in the source tree.
+Result<std::vector<Goal>> goals() {
+  auto config = resourcePath("config");
+  if (!config) return tl::make_unexpected(config.error());
+  return loadGoals(*config + "/../../tests/bench/goals.yaml");
+}
+
+int runEvaluation(const Evaluation& evaluation, const SweepOptions& options,
+                  const std::string& json_path) {
+  auto goal_list = goals();
+  if (!goal_list) return fail(goal_list.error());
+  auto result = evaluation.run(options);
+  if (!result) return fail(result.error());
+  bool all_ok = true;
+  for (Figure& figure : result->figures) {
+    judge(figure, result->name, *goal_list);
+    all_ok &= figure.ok;
+  }
+  fmt::print("{}", formatTable(*result));
+  if (!json_path.empty()) {
+    if (auto written = writeJson(*result, json_path); !written) return fail(written.error());
+  }
+  return all_ok ? kSuccess : kMissed;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{
+      "kiln-eval: runs missions and sweeps against the simulator and holds their figures against "
+      "the goals"};
+  app.set_version_flag("--version", std::string("kiln-eval ") + KILN_VERSION);
+  app.require_subcommand(1);
+
+  MissionRunOptions run_options;
+  run_options.lockstep = false;
+  std::string report;
+  auto* run = app.add_subcommand("run", "one mission; exit status 0 only on success");
+  run->add_option("--mission", run_options.mission, "mission")
+      ->default_val("fire")
+      ->check(CLI::IsMember({"fire"}));
+  run->add_option("--seed", run_options.seed, "seed of the world")
+      ->default_val(1)
+      ->check(CLI::NonNegativeNumber);
+  run->add_flag("--lockstep", run_options.lockstep,
+                "world and robot step together, as fast as the processor allows");
+  run->add_option("--report", report, "deterministic JSON; wall time goes to FILE.timing");
+  run->add_option("--world", run_options.world, "world file (default: the mission's)")
+      ->check(CLI::ExistingFile);
+  run->add_option("--fault", run_options.world_args,
+                  "fault to inject, as kiln-sim --fault takes it");
+  run->add_option("--wall-limit-s", run_options.wall_limit_s, "end a run that takes longer")
+      ->default_val(1200.0);
+
+  auto* list = app.add_subcommand("list", "names the evaluations");
+  std::string seeds, json_path;
+  SweepOptions sweep;
+  int jobs = 0;
+  std::vector<std::pair<CLI::App*, const Evaluation*>> sweeps;
+  for (const Evaluation& evaluation : evaluations()) {
+    auto* sub = app.add_subcommand(evaluation.name, evaluation.doc);
+    sub->add_option("--seeds", seeds, "A-B");
+    sub->add_option("--json", json_path, "write figures and runs as JSON");
+    sub->add_option("--jobs", jobs, "runs side by side")->check(CLI::Range(1, 64));
+    sub->add_option("--out", sweep.out, "where a calibration writes its result");
+    sweeps.emplace_back(sub, &evaluation);
+  }
+  CLI11_PARSE(app, argc, argv);
+
+  if (*list) {
+    for (const Evaluation& evaluation : evaluations())
+      fmt::print("{:<20} {}\n", evaluation.name, evaluation.doc);
+    return kSuccess;
+  }
+  if (*run) {
+    std::vector<std::string> faults;
+    for (const std::string& fault : run_options.world_args)
+      faults.insert(faults.end(), {"--fault", fault});
+    run_options.world_args = faults;
+    return runOneMission(run_options, report);
+  }
+  for (const auto& [sub, evaluation] : sweeps) {
+    if (!*sub) continue;
+    SweepOptions options = evaluation->defaults;
+    options.out = sweep.out;
+    if (jobs > 0) options.jobs = jobs;
+    if (!parseSeeds(seeds, options))
+      return fail({ErrorCode::InvalidInput, "--seeds must be A-B with A <= B, e.g. 1-20"});
+    return runEvaluation(*evaluation, options, json_path);
+  }
+  return kBadInput;
+}

@@ -1,0 +1,146 @@
+#include "robot/evaluation/mission_run.h"
+
+#include <fstream>
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
+#include "common/core/clock.h"
+#include "robot/evaluation/child_process.h"
+
+namespace kiln {
+namespace {
+
+using nlohmann::json;
+
+std::string readAll(const std::string& path) {
+  std::ifstream in(path);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+Result<json> readJson(const std::string& path, const std::string& who, const std::string& log) {
+  const json document = json::parse(readAll(path), nullptr, false);
+  if (document.is_discarded() || !document.is_object()) {
+    return makeError(ErrorCode::NotFound, "{} left no report; its last words:\n{}", who,
+                     tailOf(log, 8));
+  }
+  return document;
+}
+
+struct Folder {
+  explicit Folder(const MissionRunOptions& o) : scratch("eval"), options(o) {}
+  ScratchFolder scratch;
+  const MissionRunOptions& options;
+  [[nodiscard]] std::string file(const std::string& name) const { return scratch.file(name); }
+
+  [[nodiscard]] std::vector<std::string> worldCommand() const {
+    std::vector<std::string> argv{siblingProgram("kiln-sim"),
+                                  "--seed",
+                                  std::to_string(options.seed),
+                                  "--listen",
+                                  "ipc://" + file("world"),
+                                  "--truth",
+                                  file("truth.json")};
+    if (options.lockstep) argv.emplace_back("--lockstep");
+    if (!options.world.empty()) argv.insert(argv.end(), {"--world", options.world});
+    if (options.trace) argv.insert(argv.end(), {"--truth-trace", file("trace.jsonl")});
+    argv.insert(argv.end(), options.world_args.begin(), options.world_args.end());
+    return argv;
+  }
+  [[nodiscard]] std::vector<std::string> robotCommand() const {
+    std::vector<std::string> argv{siblingProgram("kiln-robotd"),
+                                  "--sim",
+                                  "ipc://" + file("world"),
+                                  "--mission",
+                                  options.mission,
+                                  "--start",
+                                  "--exit-when-done",
+                                  "--report",
+                                  file("robot.json"),
+                                  "--state-dir",
+                                  file("state"),
+                                  "--listen",
+                                  "ipc://" + file("link")};
+    if (options.lockstep) argv.emplace_back("--lockstep");
+    argv.insert(argv.end(), options.robot_args.begin(), options.robot_args.end());
+    return argv;
+  }
+};
+
+json mergeReports(const MissionRunOptions& options, const json& robot, const json& truth,
+                  bool& success) {
+  const auto& collisions = truth.at("collisions");
+  const double burning_l = truth.value("burning_litres", 0.0);
+  const std::string outcome = robot.value("outcome", "unknown");
+  success = outcome == "success" && collisions.empty() && burning_l >= 1.0;
+  return json{{"mission", options.mission},
+              {"seed", options.seed},
+              {"version", KILN_VERSION},
+              {"outcome", success                ? "success"
+                          : outcome == "success" ? "not extinguished"
+                                                 : outcome},
+              {"mission_outcome", outcome},
+              {"reason", robot.value("reason", "")},
+              {"simulated_s", truth.at("simulated_s")},
+              {"mission_s", robot.value("mission_s", 0.0)},
+              {"litres_delivered", truth.at("litres_delivered")},
+              {"burning_place", truth.value("burning_place", "")},
+              {"litres_est", robot.value("litres_est", 0.0)},
+              {"collisions", collisions},
+              {"states", robot.at("states")},
+              {"resets", truth.at("resets")},
+              {"score", truth.at("score")}};
+}
+
+}  // namespace
+
+Result<MissionRun> runMission(const MissionRunOptions& options) {
+  const Folder folder(options);
+  const SteadyClock clock;
+  const Stamp begin = clock.now();
+  auto world = ChildProcess::start(folder.worldCommand(), folder.file("sim.log"));
+  if (!world) return tl::make_unexpected(world.error());
+  auto robot = ChildProcess::start(folder.robotCommand(), folder.file("robotd.log"));
+  if (!robot) return tl::make_unexpected(robot.error());
+
+  MissionRun run;
+  const Stamp deadline = begin + fromSeconds(options.wall_limit_s);
+  while (!robot->wait(std::chrono::milliseconds(200))) {
+    run.robot_cpu_s = robot->cpuSeconds().value_or(run.robot_cpu_s);
+    run.sim_cpu_s = world->cpuSeconds().value_or(run.sim_cpu_s);
+    if (!world->running()) {
+      return makeError(ErrorCode::Unavailable, "kiln-sim ended early; its last words:\n{}",
+                       tailOf(folder.file("sim.log"), 8));
+    }
+    if (clock.now() > deadline) {
+      return makeError(ErrorCode::Timeout,
+                       "seed {}: no end after {} s of wall time; robot's last words:\n{}",
+                       options.seed, options.wall_limit_s, tailOf(folder.file("robotd.log"), 8));
+    }
+  }
+  run.wall_s = toSeconds(clock.now() - begin);
+  if (!world->wait(std::chrono::seconds(2))) {
+    world->signal(15);
+    (void)world->wait(std::chrono::seconds(5));
+  }
+  auto robot_report = readJson(folder.file("robot.json"), "kiln-robotd", folder.file("robotd.log"));
+  if (!robot_report) return tl::make_unexpected(robot_report.error());
+  auto truth = readJson(folder.file("truth.json"), "kiln-sim", folder.file("sim.log"));
+  if (!truth) return tl::make_unexpected(truth.error());
+  try {
+    run.report_json = mergeReports(options, *robot_report, *truth, run.success).dump(2) + "\n";
+    run.simulated_s = truth->at("simulated_s").get<double>();
+  } catch (const json::exception& e) {
+    return makeError(ErrorCode::InvalidInput,
+                     "the reports of kiln-sim and kiln-robotd do not fit this kiln-eval: {}",
+                     e.what());
+  }
+  json robot_and_truth{{"robot", *robot_report}, {"truth", *truth}};
+  run.robot_json = robot_and_truth.dump();
+  if (options.trace) run.trace_jsonl = readAll(folder.file("trace.jsonl"));
+  return run;
+}
+
+}  // namespace kiln

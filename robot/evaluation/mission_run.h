@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/core/error.h"
+
+namespace kiln {
+
+/// One mission in the simulator, each side in a process of its own.
+struct MissionRunOptions {
+  std::string mission = "fire";
+  int seed = 1;
+  bool lockstep = true;
+  std::string world;                    ///< world file; empty = the mission's default
+  std::vector<std::string> world_args;  ///< passed on to kiln-sim, e.g. --fault
+  std::vector<std::string> robot_args;  ///< passed on to kiln-robotd
+  double wall_limit_s = 600.0;          ///< a run that takes longer is ended and counted as failed
+  bool trace = false;  ///< also collect the truth trace (10 Hz), for accuracy figures
+};
+
+struct MissionRun {
+  bool success = false;
+  std::string report_json;  ///< deterministic: same seed, build and machine give the same bytes
+  std::string robot_json;   ///< the daemon's own report, with every heat estimate
+  std::string trace_jsonl;  ///< truth at 10 Hz, if asked for
+  double wall_s = 0.0;
+  double simulated_s = 0.0;
+  double sim_cpu_s = 0.0;
+  double robot_cpu_s = 0.0;
+  [[nodiscard]] double realTimeFactor() const { return wall_s > 0 ? simulated_s / wall_s : 0.0; }
+};
+
+/// Starts kiln-sim and kiln-robotd on private sockets, waits for both, merges what the robot says
+/// of itself with what the world knows. Success = mission ended as finished, at least 1 l through
+/// the burning place's opening, no collision.
+[[nodiscard]] Result<MissionRun> runMission(const MissionRunOptions& options);
+
+}  // namespace kiln
