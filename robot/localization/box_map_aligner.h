@@ -46,7 +46,7 @@ class BoxMapAligner {
     double inlier_distance_m = 0.06;  ///< what counts as explained by a wall
     double min_inlier_fraction = 0.25;
     int max_iterations = 24;
-    double min_information = 12.0;   ///< effective points that must hold a direction
+    double min_information = 6.0;    ///< effective points that must hold a direction
     double residual_sigma_m = 0.10;  ///< a point's weight in the covariance; above the sensor's
                                      ///< noise because errors are correlated
     double floor_sigma_m = 0.008;    ///< never believe more than this (map and extrinsics)

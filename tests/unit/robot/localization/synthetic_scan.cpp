@@ -1,0 +1,89 @@
+#include "tests/unit/robot/localization/synthetic_scan.h"
+
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "common/config/resources.h"
+
+namespace kiln::testing {
+namespace {
+
+constexpr double kDeg = M_PI / 180.0;
+
+/// Distance along a unit ray to a box, or infinity; the ray is given in the box frame.
+double slab(const Eigen::Vector3d& origin, const Eigen::Vector3d& ray,
+            const std::vector<double>& size_m) {
+  double near = 0.0, far = 1e9;
+  for (int k = 0; k < 3; ++k) {
+    const double half = 0.5 * size_m[static_cast<std::size_t>(k)];
+    if (std::abs(ray[k]) < 1e-12) {
+      if (std::abs(origin[k]) > half) return 1e9;
+      continue;
+    }
+    const double a = (-half - origin[k]) / ray[k], b = (half - origin[k]) / ray[k];
+    near = std::max(near, std::min(a, b));
+    far = std::min(far, std::max(a, b));
+  }
+  return near <= far && near > 0.0 ? near : 1e9;
+}
+
+}  // namespace
+
+ArenaMap kitchen() {
+  ArenaMap arena;
+  const auto path = resourcePath("config/arena_kitchen.yaml");
+  EXPECT_TRUE(path.has_value());
+  const auto loaded = loadConfig(*path, arena);
+  EXPECT_TRUE(loaded.has_value()) << (loaded ? Error{} : loaded.error());
+  return arena;
+}
+
+BoxConfig makeBox(double x, double y, double z, double sx, double sy, double sz) {
+  return {"box", {{x, y, z}, {0, 0, 0}}, {sx, sy, sz}};
+}
+
+std::vector<BoxConfig> moved(std::vector<BoxConfig> boxes, double metres, std::uint32_t seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> shift(-metres, metres), turn(-5.0, 5.0);
+  for (BoxConfig& box : boxes) {
+    box.center.xyz_m[0] += shift(random);
+    box.center.xyz_m[1] += shift(random);
+    box.center.rpy_deg[2] += turn(random);
+  }
+  return boxes;
+}
+
+PointCloud castScan(const ScanSettings& settings, const Pose2& X_map_base) {
+  std::mt19937 random(settings.seed);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> uniform;
+  std::array<double, 16> bias{};
+  for (double& b : bias) b = settings.bias_sigma_m * normal(random);
+  const Eigen::Isometry3d X = toIsometry(X_map_base);
+  std::vector<Eigen::Isometry3d> X_box_base;
+  for (const BoxConfig& box : settings.boxes) X_box_base.push_back(box.center.pose().inverse() * X);
+  PointCloud cloud;
+  cloud.frame = "base";
+  for (int azimuth = 0; azimuth < 900; ++azimuth) {
+    for (int ring = 0; ring < 16; ++ring) {
+      const double a = azimuth * 0.4 * kDeg, e = (-15.0 + 2.0 * ring) * kDeg;
+      const Eigen::Vector3d ray(std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e));
+      double range = settings.p_base_sensor.z() / std::max(1e-9, -ray.z());  // the floor
+      for (std::size_t i = 0; i < settings.boxes.size(); ++i) {
+        range = std::min(range, slab(X_box_base[i] * settings.p_base_sensor,
+                                     X_box_base[i].linear() * ray, settings.boxes[i].size_m));
+      }
+      if (range > 100.0 || uniform(random) < settings.dropout) continue;
+      if (uniform(random) < settings.random_return_fraction) range *= 0.1 + 0.9 * uniform(random);
+      range += bias[static_cast<std::size_t>(ring)] + settings.noise_sigma_m * normal(random);
+      const Eigen::Vector3d p = settings.p_base_sensor + range * ray;
+      cloud.push(static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()),
+                 50, static_cast<std::uint8_t>(ring), 0.0F);
+    }
+  }
+  return cloud;
+}
+
+}  // namespace kiln::testing
