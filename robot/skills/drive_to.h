@@ -7,13 +7,13 @@
 #include "common/core/clock.h"
 #include "robot/control/base_controller.h"
 #include "robot/scene/arena_map.h"
-#include "robot/skills/skill.h"
+#include "robot/skills/motion.h"
 
 namespace kiln {
 
 /// Drives the base along way-points in `map` (omnidirectional, heading interpolated), with jerk-limited speed, and
 /// stops at the last one. Judges by `pose` (X_map_base, from odometry or localisation).
-class DriveTo {
+class DriveTo final : public BaseMotion {
  public:
   struct Config {
     double speed_mps = 1.0;
@@ -29,11 +29,11 @@ class DriveTo {
   };
   using PoseSource = std::function<Pose2()>;  ///< newest X_map_base
   DriveTo(Config config, const ArenaMap& arena, BaseController& base, PoseSource pose);
-  ~DriveTo();
+  ~DriveTo() override;
   /// Refuses (Failed at the first poll) way-points outside the geofence.
-  void start(std::vector<Pose2> waypoints_map, Stamp now);
-  [[nodiscard]] SkillStatus poll(Stamp now);
-  void cancel();                          ///< base ramps to rest
+  void start(std::vector<Pose2> waypoints_map, Stamp now) override;
+  [[nodiscard]] SkillStatus poll(Stamp now) override;
+  void cancel() override;                 ///< base ramps to rest
   [[nodiscard]] const std::vector<Pose2>& waypoints() const;
   [[nodiscard]] int nextIndex() const;
 

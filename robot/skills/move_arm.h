@@ -8,14 +8,14 @@
 #include "common/core/error.h"
 #include "robot/control/arm_controller.h"
 #include "robot/scene/arena_map.h"
-#include "robot/skills/skill.h"
+#include "robot/skills/motion.h"
 
 namespace kiln {
 
 /// Moves the arm to joint or Cartesian goals: inverse kinematics over all UR solutions, limits, self-collision,
 /// collision with base, tanks and the known scene, then a jerk-limited joint or straight-line trajectory that is
 /// streamed as setpoints at 50 Hz. Guarded by default: stops on unexpected force.
-class MoveArm {
+class MoveArm final : public ArmMotion {
  public:
   struct Config {
     double speed_scale = 0.3;             ///< of the joint limits
@@ -28,17 +28,17 @@ class MoveArm {
   using PoseSource = std::function<Pose2()>;
   MoveArm(Config config, const RobotGeometry& robot, const ArenaMap& arena, ArmController& controller, const Arm& arm,
           PoseSource pose);
-  ~MoveArm();
+  ~MoveArm() override;
   /// Joint-space move, rad.
-  void startJoints(const Vector6d& q_goal, Stamp now);
+  void startJoints(const Vector6d& q_goal, Stamp now) override;
   /// Flange pose in base; the solution nearest to the present joints that is free of collision along the way.
-  void startPose(const Eigen::Isometry3d& X_base_flange, Stamp now);
+  void startPose(const Eigen::Isometry3d& X_base_flange, Stamp now) override;
   /// Straight lines through flange poses in base, jerk-limited, without stopping when `blend`.
-  void startCartesian(std::vector<Eigen::Isometry3d> X_base_flange, bool blend, Stamp now);
-  [[nodiscard]] SkillStatus poll(Stamp now);
-  void cancel();                          ///< arm decelerates and holds
+  void startCartesian(std::vector<Eigen::Isometry3d> X_base_flange, bool blend, Stamp now) override;
+  [[nodiscard]] SkillStatus poll(Stamp now) override;
+  void cancel() override;                 ///< arm decelerates and holds
   /// Reachable and free of collision now? Error says why not.
-  [[nodiscard]] Result<Vector6d> check(const Eigen::Isometry3d& X_base_flange) const;
+  [[nodiscard]] Result<Vector6d> check(const Eigen::Isometry3d& X_base_flange) const override;
 
  private:
   struct Impl;
