@@ -1,0 +1,224 @@
+#include "common/wire/sensor.h"
+
+#include <cmath>
+#include <cstring>
+
+#include "common/wire/cloud_codec.h"
+#include "common/wire/compress.h"
+#include "common/wire/proto_message.h"
+#include "kiln/v1/sensor.pb.h"
+
+namespace kiln::wire {
+namespace {
+
+constexpr std::size_t kMaxStreamBytes = 16u << 20;
+constexpr std::size_t kMaxFrameName = 64;
+constexpr std::uint32_t kMaxThermalSide = 1024;
+constexpr std::uint32_t kMaxColourSide = 8192;
+constexpr int kMaxBlobs = 1000;
+
+Result<void> checkImageSize(std::uint32_t width, std::uint32_t height, std::uint32_t limit,
+                            const char* what) {
+  if (width == 0 || height == 0 || width > limit || height > limit) {
+    return makeError(ErrorCode::InvalidInput, "{}: {} x {} pixels are not within 1 to {}; dropped",
+                     what, width, height, limit);
+  }
+  return {};
+}
+
+void toProto(const HeatBlob& blob, v1::HeatBlob& out) {
+  out.set_u(blob.u);
+  out.set_v(blob.v);
+  out.set_u_min(blob.u_min);
+  out.set_v_min(blob.v_min);
+  out.set_u_max(blob.u_max);
+  out.set_v_max(blob.v_max);
+  out.set_peak_k(blob.peak_k);
+  out.set_background_k(blob.background_k);
+  out.set_half_max_area_px(blob.half_max_area_px);
+  out.set_rejection(static_cast<std::uint32_t>(blob.rejection));
+  out.set_reason(validUtf8(blob.reason));
+}
+
+Result<HeatBlob> fromProto(const v1::HeatBlob& in) {
+  const auto rejection = toEnum(in.rejection(), HeatRejection::NotLinear, "heat rejection");
+  if (!rejection) return tl::make_unexpected(rejection.error());
+  HeatBlob blob;
+  blob.u = in.u();
+  blob.v = in.v();
+  blob.u_min = in.u_min();
+  blob.v_min = in.v_min();
+  blob.u_max = in.u_max();
+  blob.v_max = in.v_max();
+  blob.peak_k = in.peak_k();
+  blob.background_k = in.background_k();
+  blob.half_max_area_px = in.half_max_area_px();
+  blob.rejection = *rejection;
+  blob.reason = in.reason();
+  return blob;
+}
+
+}  // namespace
+
+std::string encode(const PointCloud& cloud, double resolution_m) {
+  PackedCloud packed = packCloud(cloud, resolution_m);
+  v1::Cloud out;
+  out.set_stamp_ns(toNanoseconds(cloud.stamp));
+  out.set_seq(cloud.seq);
+  out.set_frame(cloud.frame);
+  out.set_points(packed.points);
+  out.set_resolution_m(packed.resolution_m);
+  out.set_xyz(std::move(packed.xyz));
+  out.set_intensity(std::move(packed.intensity));
+  out.set_ring(std::move(packed.ring));
+  out.set_time(std::move(packed.time));
+  return serialise(out);
+}
+
+Result<PointCloud> decodeCloud(std::string_view bytes) {
+  auto in = parse<v1::Cloud>(bytes, kMaxStreamBytes, "cloud");
+  if (!in) return tl::make_unexpected(in.error());
+  if (in->frame().size() > kMaxFrameName) {
+    return makeError(ErrorCode::InvalidInput, "cloud: frame name of {} characters; dropped",
+                     in->frame().size());
+  }
+  PackedCloud packed;
+  packed.points = in->points();
+  packed.resolution_m = in->resolution_m();
+  packed.xyz = std::move(*in->mutable_xyz());
+  packed.intensity = std::move(*in->mutable_intensity());
+  packed.ring = std::move(*in->mutable_ring());
+  packed.time = std::move(*in->mutable_time());
+  auto cloud = unpackCloud(packed);
+  if (!cloud) return cloud;
+  cloud->stamp = stampFromNanoseconds(in->stamp_ns());
+  cloud->seq = in->seq();
+  cloud->frame = in->frame();
+  return cloud;
+}
+
+std::string encode(const ThermalImage& image) {
+  std::string raw(2 * image.counts.size(), '\0');
+  for (std::size_t i = 0; i < image.counts.size(); ++i) {
+    raw[2 * i] = static_cast<char>(image.counts[i] & 0xFFu);
+    raw[2 * i + 1] = static_cast<char>(image.counts[i] >> 8);
+  }
+  v1::ThermalFrame out;
+  out.set_stamp_ns(toNanoseconds(image.stamp));
+  out.set_seq(image.seq);
+  out.set_frame_counter(image.frame_counter);
+  out.set_width(static_cast<std::uint32_t>(image.width));
+  out.set_height(static_cast<std::uint32_t>(image.height));
+  out.set_counts(compress(raw));
+  out.set_tlinear(image.tlinear);
+  out.set_kelvin_per_count(image.kelvin_per_count);
+  out.set_agc(image.agc);
+  out.set_ffc(static_cast<std::uint32_t>(image.ffc));
+  return serialise(out);
+}
+
+Result<ThermalImage> decodeThermal(std::string_view bytes) {
+  const auto in = parse<v1::ThermalFrame>(bytes, kMaxStreamBytes, "thermal image");
+  if (!in) return tl::make_unexpected(in.error());
+  if (auto ok = checkImageSize(in->width(), in->height(), kMaxThermalSide, "thermal image"); !ok) {
+    return tl::make_unexpected(ok.error());
+  }
+  if (!(in->kelvin_per_count() > 0.0 && in->kelvin_per_count() <= 1.0)) {
+    return makeError(ErrorCode::InvalidInput,
+                     "thermal image: {} K a count is out of range; dropped",
+                     in->kelvin_per_count());
+  }
+  const auto ffc = toEnum(in->ffc(), FfcState::Complete, "thermal shutter state");
+  if (!ffc) return tl::make_unexpected(ffc.error());
+  const std::size_t n = std::size_t{in->width()} * in->height();
+  const auto raw = decompress(in->counts(), 2 * n, "thermal image");
+  if (!raw) return tl::make_unexpected(raw.error());
+
+  ThermalImage image;
+  image.stamp = stampFromNanoseconds(in->stamp_ns());
+  image.seq = in->seq();
+  image.frame_counter = in->frame_counter();
+  image.width = static_cast<int>(in->width());
+  image.height = static_cast<int>(in->height());
+  image.tlinear = in->tlinear();
+  image.kelvin_per_count = in->kelvin_per_count();
+  image.agc = in->agc();
+  image.ffc = *ffc;
+  image.counts.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    image.counts[i] =
+        static_cast<std::uint16_t>(static_cast<std::uint8_t>((*raw)[2 * i]) |
+                                   (static_cast<std::uint8_t>((*raw)[2 * i + 1]) << 8));
+  }
+  return image;
+}
+
+std::string encode(const JpegImage& image) {
+  v1::ColourFrame out;
+  out.set_stamp_ns(toNanoseconds(image.stamp));
+  out.set_seq(image.seq);
+  out.set_frame(image.frame);
+  out.set_width(static_cast<std::uint32_t>(image.width));
+  out.set_height(static_cast<std::uint32_t>(image.height));
+  out.set_jpeg(image.jpeg.data(), image.jpeg.size());
+  return serialise(out);
+}
+
+Result<JpegImage> decodeJpeg(std::string_view bytes) {
+  const auto in = parse<v1::ColourFrame>(bytes, kMaxStreamBytes, "colour image");
+  if (!in) return tl::make_unexpected(in.error());
+  if (auto ok = checkImageSize(in->width(), in->height(), kMaxColourSide, "colour image"); !ok) {
+    return tl::make_unexpected(ok.error());
+  }
+  if (in->jpeg().empty() || in->frame().size() > kMaxFrameName) {
+    return makeError(ErrorCode::InvalidInput,
+                     "colour image: {} bytes of JPEG, frame name of {} characters; dropped",
+                     in->jpeg().size(), in->frame().size());
+  }
+  JpegImage image;
+  image.stamp = stampFromNanoseconds(in->stamp_ns());
+  image.seq = in->seq();
+  image.frame = in->frame();
+  image.width = static_cast<int>(in->width());
+  image.height = static_cast<int>(in->height());
+  image.jpeg.assign(in->jpeg().begin(), in->jpeg().end());
+  return image;
+}
+
+std::string encode(const HeatDetections& detections) {
+  v1::HeatDetections out;
+  out.set_stamp_ns(toNanoseconds(detections.stamp));
+  out.set_image_seq(detections.image_seq);
+  out.set_usable(detections.usable);
+  out.set_refusal(validUtf8(detections.refusal));
+  out.set_threshold_k(detections.threshold_k);
+  out.set_max_k(detections.max_k);
+  for (const HeatBlob& blob : detections.blobs) toProto(blob, *out.add_blobs());
+  out.set_cost_ms(detections.cost_ms);
+  return serialise(out);
+}
+
+Result<HeatDetections> decodeHeat(std::string_view bytes) {
+  const auto in = parse<v1::HeatDetections>(bytes, kMaxStreamBytes, "heat detections");
+  if (!in) return tl::make_unexpected(in.error());
+  if (in->blobs_size() > kMaxBlobs) {
+    return makeError(ErrorCode::InvalidInput, "heat detections: {} blobs are more than {}; dropped",
+                     in->blobs_size(), kMaxBlobs);
+  }
+  HeatDetections detections;
+  detections.stamp = stampFromNanoseconds(in->stamp_ns());
+  detections.image_seq = in->image_seq();
+  detections.usable = in->usable();
+  detections.refusal = in->refusal();
+  detections.threshold_k = in->threshold_k();
+  detections.max_k = in->max_k();
+  detections.cost_ms = in->cost_ms();
+  for (const v1::HeatBlob& blob : in->blobs()) {
+    auto value = fromProto(blob);
+    if (!value) return tl::make_unexpected(value.error());
+    detections.blobs.push_back(std::move(*value));
+  }
+  return detections;
+}
+
+}  // namespace kiln::wire

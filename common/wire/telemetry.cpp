@@ -1,0 +1,282 @@
+#include "common/wire/telemetry.h"
+
+#include "common/wire/geometry.h"
+#include "common/wire/proto_message.h"
+#include "kiln/v1/telemetry.pb.h"
+
+namespace kiln::wire {
+namespace {
+
+using wire::fromProto;
+using wire::toProto;
+
+constexpr std::size_t kMaxStatusBytes = 1u << 20;
+
+void toProto(const Alarm& alarm, v1::Alarm& out) {
+  out.set_id(alarm.id);
+  out.set_level(static_cast<std::uint32_t>(alarm.level));
+  out.set_text(validUtf8(alarm.text));
+  out.set_action(validUtf8(alarm.action));
+  out.set_since_ns(toNanoseconds(alarm.since));
+  out.set_active(alarm.active);
+  out.set_acknowledged(alarm.acknowledged);
+}
+
+Result<Alarm> fromProto(const v1::Alarm& in) {
+  const auto level = toEnum(in.level(), AlarmLevel::Warning, "alarm level");
+  if (!level) return tl::make_unexpected(level.error());
+  return Alarm{
+      in.id(),     *level,           in.text(), in.action(), stampFromNanoseconds(in.since_ns()),
+      in.active(), in.acknowledged()};
+}
+
+void toProto(const LeaseStatus& lease, v1::LeaseStatus& out) {
+  out.set_holder_client(lease.holder_client);
+  out.set_holder_name(validUtf8(lease.holder_name));
+  out.set_epoch(lease.epoch);
+  out.set_expires_in_s(lease.expires_in_s);
+  out.set_requested_by_client(lease.requested_by_client);
+  out.set_requested_by_name(validUtf8(lease.requested_by_name));
+  out.set_request_expires_in_s(lease.request_expires_in_s);
+}
+
+LeaseStatus fromProto(const v1::LeaseStatus& in) {
+  return {in.holder_client(),       in.holder_name(),         in.epoch(),
+          in.expires_in_s(),        in.requested_by_client(), in.requested_by_name(),
+          in.request_expires_in_s()};
+}
+
+void toProto(const WaterStatus& water, v1::WaterStatus& out) {
+  for (const double value : water.duty) out.add_duty(value);
+  for (const double value : water.current_a) out.add_current_a(value);
+  for (const double value : water.tank_l_est) out.add_tank_l_est(value);
+  out.set_sprayed_l_est(water.sprayed_l_est);
+}
+
+Result<WaterStatus> fromProto(const v1::WaterStatus& in) {
+  WaterStatus water;
+  if (auto ok = copyFixed(in.duty(), water.duty, "pump duty"); !ok)
+    return tl::make_unexpected(ok.error());
+  if (auto ok = copyFixed(in.current_a(), water.current_a, "pump current"); !ok) {
+    return tl::make_unexpected(ok.error());
+  }
+  if (auto ok = copyFixed(in.tank_l_est(), water.tank_l_est, "tanks"); !ok)
+    return tl::make_unexpected(ok.error());
+  water.sprayed_l_est = in.sprayed_l_est();
+  return water;
+}
+
+void toProto(const ArmState& arm, v1::ArmState& out) {
+  out.set_stamp_ns(toNanoseconds(arm.stamp));
+  out.set_seq(arm.seq);
+  for (int i = 0; i < 6; ++i) {
+    out.add_q_rad(arm.q[i]);
+    out.add_qd_radps(arm.qd[i]);
+    out.add_wrench(arm.wrench_tool[i]);
+  }
+  out.set_safety(static_cast<std::uint32_t>(arm.safety));
+  out.set_powered(arm.powered);
+}
+
+Result<ArmState> fromProto(const v1::ArmState& in) {
+  ArmState arm;
+  if (auto ok = copyFixed(in.q_rad(), arm.q, "arm joints"); !ok)
+    return tl::make_unexpected(ok.error());
+  if (auto ok = copyFixed(in.qd_radps(), arm.qd, "arm speeds"); !ok)
+    return tl::make_unexpected(ok.error());
+  if (auto ok = copyFixed(in.wrench(), arm.wrench_tool, "arm wrench"); !ok)
+    return tl::make_unexpected(ok.error());
+  const auto safety = toEnum(in.safety(), ArmSafetyMode::Fault, "arm safety mode");
+  if (!safety) return tl::make_unexpected(safety.error());
+  arm.stamp = stampFromNanoseconds(in.stamp_ns());
+  arm.seq = in.seq();
+  arm.safety = *safety;
+  arm.powered = in.powered();
+  return arm;
+}
+
+void toProto(const MacroStatus& macro, v1::MacroStatus& out) {
+  out.set_running(macro.running);
+  out.set_step(macro.step);
+  out.set_steps(macro.steps);
+  out.set_step_text(validUtf8(macro.step_text));
+  out.set_progress(macro.progress);
+  out.set_last_result(validUtf8(macro.last_result));
+}
+
+MacroStatus fromProto(const v1::MacroStatus& in) {
+  return {in.running(), in.step(), in.steps(), in.step_text(), in.progress(), in.last_result()};
+}
+
+void listsToProto(const RobotStatus& status, v1::RobotStatus& out) {
+  for (const Check& check : status.checks) {
+    v1::Check& row = *out.add_checks();
+    row.set_name(check.name);
+    row.set_ok(check.ok);
+    row.set_detail(validUtf8(check.detail));
+  }
+  for (const double angle : status.wheel_steer_rad) out.add_wheel_steer_rad(angle);
+  for (const Alarm& alarm : status.alarms) toProto(alarm, *out.add_alarms());
+  for (const DropCount& drop : status.drops) {
+    v1::DropCount& row = *out.add_drops();
+    row.set_topic(drop.topic);
+    row.set_dropped(drop.dropped);
+  }
+  for (const std::string& name : status.operators) out.add_operators(validUtf8(name));
+}
+
+Result<void> listsFromProto(const v1::RobotStatus& in, RobotStatus& status) {
+  for (const v1::Check& row : in.checks())
+    status.checks.push_back({row.name(), row.ok(), row.detail()});
+  if (auto ok = copyFixed(in.wheel_steer_rad(), status.wheel_steer_rad, "wheels"); !ok) return ok;
+  for (const v1::Alarm& row : in.alarms()) {
+    auto alarm = fromProto(row);
+    if (!alarm) return tl::make_unexpected(alarm.error());
+    status.alarms.push_back(std::move(*alarm));
+  }
+  for (const v1::DropCount& row : in.drops()) status.drops.push_back({row.topic(), row.dropped()});
+  status.operators.assign(in.operators().begin(), in.operators().end());
+  return {};
+}
+
+Result<void> enumsFromProto(const v1::RobotStatus& in, RobotStatus& status) {
+  const auto environment = toEnum(in.environment(), Environment::Replay, "environment");
+  if (!environment) return tl::make_unexpected(environment.error());
+  const auto mode = toEnum(in.mode(), Mode::Stopped, "mode");
+  if (!mode) return tl::make_unexpected(mode.error());
+  const auto word = toEnum(in.word(), StatusWord::Stopped, "status word");
+  if (!word) return tl::make_unexpected(word.error());
+  status.environment = *environment;
+  status.mode = *mode;
+  status.word = *word;
+  return {};
+}
+
+Result<void> partsFromProto(const v1::RobotStatus& in, RobotStatus& status) {
+  auto arm = fromProto(in.arm());
+  if (!arm) return tl::make_unexpected(arm.error());
+  status.arm = *arm;
+  auto X_base_nozzle = fromProto(in.x_base_nozzle(), "nozzle pose");
+  if (!X_base_nozzle) return tl::make_unexpected(X_base_nozzle.error());
+  status.X_base_nozzle = *X_base_nozzle;
+  auto water = fromProto(in.water());
+  if (!water) return tl::make_unexpected(water.error());
+  status.water = *water;
+  return {};
+}
+
+}  // namespace
+
+std::string encode(const RobotStatus& status) {
+  v1::RobotStatus out;
+  out.set_stamp_ns(toNanoseconds(status.stamp));
+  out.set_seq(status.seq);
+  out.set_robot_name(status.robot_name);
+  out.set_version(status.version);
+  out.set_environment(static_cast<std::uint32_t>(status.environment));
+  out.set_mode(static_cast<std::uint32_t>(status.mode));
+  out.set_word(static_cast<std::uint32_t>(status.word));
+  out.set_reason(validUtf8(status.reason));
+  toProto(status.lease, *out.mutable_lease());
+  v1::StopStatus& stop = *out.mutable_stop();
+  stop.set_latched(status.stop.latched);
+  stop.set_source(validUtf8(status.stop.source));
+  stop.set_since_ns(toNanoseconds(status.stop.since));
+  stop.set_standstill_proven(status.stop.standstill_proven);
+  toProto(status.X_map_base, *out.mutable_x_map_base());
+  out.set_pose_age_s(status.pose_age_s);
+  toProto(status.twist, *out.mutable_twist());
+  toProto(status.arm, *out.mutable_arm());
+  toProto(status.X_base_nozzle, *out.mutable_x_base_nozzle());
+  out.set_battery_v(status.battery_v);
+  out.set_battery_a(status.battery_a);
+  toProto(status.water, *out.mutable_water());
+  toProto(status.macro, *out.mutable_macro());
+  out.set_speed_scale(status.speed_scale);
+  out.set_mission_elapsed_s(status.mission_elapsed_s);
+  out.set_mission_limit_s(status.mission_limit_s);
+  out.set_resets(status.resets);
+  out.set_score_est(status.score_est);
+  listsToProto(status, out);
+  return serialise(out);
+}
+
+Result<RobotStatus> decodeRobotStatus(std::string_view bytes) {
+  const auto in = parse<v1::RobotStatus>(bytes, kMaxStatusBytes, "robot status");
+  if (!in) return tl::make_unexpected(in.error());
+  RobotStatus status;
+  if (auto ok = enumsFromProto(*in, status); !ok) return tl::make_unexpected(ok.error());
+  if (auto ok = partsFromProto(*in, status); !ok) return tl::make_unexpected(ok.error());
+  if (auto ok = listsFromProto(*in, status); !ok) return tl::make_unexpected(ok.error());
+  status.stamp = stampFromNanoseconds(in->stamp_ns());
+  status.seq = in->seq();
+  status.robot_name = in->robot_name();
+  status.version = in->version();
+  status.reason = in->reason();
+  status.lease = fromProto(in->lease());
+  status.stop = {in->stop().latched(), in->stop().source(),
+                 stampFromNanoseconds(in->stop().since_ns()), in->stop().standstill_proven()};
+  status.X_map_base = fromProto(in->x_map_base());
+  status.pose_age_s = in->pose_age_s();
+  status.twist = fromProto(in->twist());
+  status.battery_v = in->battery_v();
+  status.battery_a = in->battery_a();
+  status.macro = fromProto(in->macro());
+  status.speed_scale = in->speed_scale();
+  status.mission_elapsed_s = in->mission_elapsed_s();
+  status.mission_limit_s = in->mission_limit_s();
+  status.resets = in->resets();
+  status.score_est = in->score_est();
+  return status;
+}
+
+std::string encode(const std::vector<MacroInfo>& macros) {
+  v1::MacroList out;
+  for (const MacroInfo& macro : macros) {
+    v1::MacroInfo& row = *out.add_macros();
+    row.set_name(macro.name);
+    row.set_doc(macro.doc);
+    row.set_duration_s(macro.duration_s);
+    row.set_water_l(macro.water_l);
+    row.set_start_condition(macro.start_condition);
+  }
+  return serialise(out);
+}
+
+Result<std::vector<MacroInfo>> decodeMacros(std::string_view bytes) {
+  const auto in = parse<v1::MacroList>(bytes, kMaxStatusBytes, "macro list");
+  if (!in) return tl::make_unexpected(in.error());
+  std::vector<MacroInfo> macros;
+  for (const v1::MacroInfo& row : in->macros()) {
+    macros.push_back(
+        {row.name(), row.doc(), row.duration_s(), row.water_l(), row.start_condition()});
+  }
+  return macros;
+}
+
+std::string encode(const LogBatch& batch) {
+  v1::LogBatch out;
+  for (const LogLine& line : batch.lines) {
+    v1::LogLine& row = *out.add_lines();
+    row.set_stamp_ns(toNanoseconds(line.stamp));
+    row.set_level(line.level);
+    row.set_logger(line.logger);
+    row.set_text(validUtf8(line.text));
+  }
+  out.set_dropped(batch.dropped);
+  return serialise(out);
+}
+
+Result<LogBatch> decodeLogBatch(std::string_view bytes) {
+  const auto in = parse<v1::LogBatch>(bytes, kMaxStatusBytes, "log batch");
+  if (!in) return tl::make_unexpected(in.error());
+  LogBatch batch;
+  for (const v1::LogLine& row : in->lines()) {
+    batch.lines.push_back(
+        {stampFromNanoseconds(row.stamp_ns()), row.level(), row.logger(), row.text()});
+  }
+  batch.dropped = in->dropped();
+  return batch;
+}
+
+}  // namespace kiln::wire
