@@ -1,0 +1,94 @@
+#pragma once
+
+#include <QObject>
+#include <QString>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "common/core/clock.h"
+#include "common/model/command.h"
+#include "common/model/fire.h"
+#include "common/model/fsm.h"
+#include "common/model/scene.h"
+#include "common/model/sensor.h"
+#include "common/model/status.h"
+
+namespace kiln::gui {
+
+enum class LinkState : std::uint8_t {
+  Connecting,  ///< never heard of the robot yet
+  Up,
+  Degraded,  ///< nothing heard for 0.5 s, or the robot does not hear us
+  Lost,      ///< nothing heard for 1.5 s
+  Refused,   ///< the robot answered the hello with a no; `reason` says why
+};
+
+/// Both directions of the link, as the station sees it. Sent at 5 Hz or faster.
+struct LinkHealth {
+  LinkState state = LinkState::Connecting;
+  QString endpoint;
+  QString reason;                ///< one sentence while not Up, else empty
+  double up_s = 0.0;             ///< one way station -> robot, estimated; < 0 unknown
+  double down_s = 0.0;           ///< one way robot -> station
+  double rtt_s = 0.0;            ///< last heartbeat round trip
+  double loss = 0.0;             ///< fraction of heartbeats lost over the last 10 s
+  double heard_age_s = 0.0;      ///< since we last heard the robot
+  double robot_hears_age_s = 0;  ///< since the robot last heard us, as it told us
+  std::vector<DropCount> drops;  ///< messages this station dropped, per topic
+};
+
+/// What became of a STOP press on its own lane.
+struct StopLane {
+  bool reachable = false;  ///< the stop socket's peer answers
+  bool pressed = false;   ///< this station is asking for a stop now (repeated at 20 Hz until acked)
+  bool acked = false;     ///< the robot has latched it
+  double latch_s = -1.0;  ///< press to ack, measured; < 0 unknown
+};
+
+/// The one seam between the station and a robot: live, fake (and later replay). Lives on the GUI
+/// thread; an implementation keeps its sockets on a thread of its own, and its signals come on the
+/// GUI thread, newest value first (latest wins per topic, so a slow GUI never builds up a queue).
+class Link : public QObject {
+  Q_OBJECT
+ public:
+  explicit Link(QObject* parent = nullptr) : QObject(parent) {}
+
+  virtual void open() = 0;
+  virtual void close() = 0;
+  /// The monotonic time base of this station. Ages and holds are measured on it.
+  [[nodiscard]] virtual const Clock& clock() const = 0;
+  /// Robot time now, from the heartbeats' offset estimate; nullopt until it is known.
+  [[nodiscard]] virtual std::optional<Stamp> robotNow() const = 0;
+  [[nodiscard]] virtual QString clientId() const = 0;
+  [[nodiscard]] virtual QString operatorName() const = 0;
+
+  /// Sends a discrete command once; never re-sent. @return its nonce, by which acks refer to it; 0
+  /// if there is no link.
+  virtual std::uint64_t send(const CommandBody& body) = 0;
+  /// Streams this setpoint at 25 Hz until it is replaced by another of its kind or released. Call
+  /// on every change.
+  virtual void startSetpoint(const CommandBody& body) = 0;
+  /// Ends every setpoint stream: an explicit zero, three times.
+  virtual void releaseSetpoints() = 0;
+  /// STOP (software): own lane, no lease, repeated until latched.
+  virtual void stop() = 0;
+
+ signals:
+  void health(const kiln::gui::LinkHealth& health);
+  void stopLane(const kiln::gui::StopLane& lane);
+  void hello(const kiln::HelloReply& reply);
+  void status(std::shared_ptr<const kiln::RobotStatus> status);
+  void fsmInfo(std::shared_ptr<const kiln::FsmInfo> info);
+  void fsmStatus(std::shared_ptr<const kiln::FsmStatus> status);
+  void cloud(kiln::PointCloudPtr cloud);
+  void thermal(kiln::ThermalImagePtr image);
+  void heat(std::shared_ptr<const kiln::HeatDetections> detections);
+  void image(kiln::RgbImagePtr image);
+  void scene(std::shared_ptr<const kiln::Scene> scene);
+  void macros(const std::vector<kiln::MacroInfo>& macros);
+  void log(const std::vector<kiln::LogLine>& lines);
+  void ack(const kiln::CommandAck& ack);
+};
+
+}  // namespace kiln::gui

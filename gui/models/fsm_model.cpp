@@ -1,0 +1,120 @@
+#include "gui/models/fsm_model.h"
+
+#include <algorithm>
+
+namespace kiln::gui {
+
+namespace {
+constexpr int kRecentStates = 3;
+QString edgeKey(const QString& from, const QString& to) { return from + QLatin1Char('>') + to; }
+}  // namespace
+
+FsmModel::FsmModel(Link& link, QObject* parent) : Model(link, AgeLimits{}, parent) {
+  connect(&link, &Link::fsmInfo, this, [this](std::shared_ptr<const FsmInfo> info) {
+    const bool other = !info_ || info_->mission_uuid != info->mission_uuid;
+    info_ = std::move(info);
+    if (!other) return;
+    visits_.clear();
+    recount();
+    touch();
+    emit missionChanged();
+  });
+  connect(&link, &Link::fsmStatus, this,
+          [this](std::shared_ptr<const FsmStatus> status) { onStatus(std::move(status)); });
+}
+
+const FsmStateInfo* FsmModel::state(const QString& name) const {
+  if (!info_) return nullptr;
+  const std::string wanted = name.toStdString();
+  const auto found = std::find_if(info_->states.begin(), info_->states.end(),
+                                  [&](const FsmStateInfo& s) { return s.name == wanted; });
+  return found == info_->states.end() ? nullptr : &*found;
+}
+
+const FsmEdgeInfo* FsmModel::edge(const QString& from, const QString& to) const {
+  if (!info_) return nullptr;
+  const std::string a = from.toStdString();
+  const std::string b = to.toStdString();
+  const auto found = std::find_if(info_->edges.begin(), info_->edges.end(),
+                                  [&](const FsmEdgeInfo& e) { return e.from == a && e.to == b; });
+  return found == info_->edges.end() ? nullptr : &*found;
+}
+
+QString FsmModel::label(const QString& name) const {
+  const FsmStateInfo* info = state(name);
+  return info && !info->label.empty() ? QString::fromStdString(info->label) : name;
+}
+
+QString FsmModel::current() const {
+  return status_ ? QString::fromStdString(status_->state) : QString{};
+}
+
+double FsmModel::timeInStateS() const {
+  if (!status_) return 0.0;
+  // Once the mission has ended or the link is silent the clock of the state must not run on by
+  // itself.
+  const double since_s = toSeconds(status_->stamp - status_->entered);
+  const bool running = status_->running && !status_->terminal && ageLevel() == AgeLevel::Fresh;
+  return std::max(0.0, since_s + (running ? std::max(0.0, ageS()) : 0.0));
+}
+
+int FsmModel::timesTaken(const QString& from, const QString& to) const {
+  return taken_.value(edgeKey(from, to));
+}
+
+int FsmModel::recency(const QString& name) const {
+  int age = 0;
+  for (auto visit = visits_.rbegin(); visit != visits_.rend() && age <= kRecentStates;
+       ++visit, ++age) {
+    if (visit->state == name) return age;
+  }
+  return -1;
+}
+
+void FsmModel::onStatus(std::shared_ptr<const FsmStatus> status) {
+  if (status_ && status_->mission_uuid != status->mission_uuid) visits_.clear();
+  const bool moved = !status_ || status_->step != status->step || status_->state != status->state;
+  status_ = std::move(status);
+  for (const FsmHistoryEntry& entry : status_->history) merge(entry);
+  if (!status_->state.empty() && (visits_.empty() || visits_.back().step < status_->step)) {
+    merge(FsmHistoryEntry{
+        status_->step, status_->state, status_->entered, Stamp{}, TransitionCause::Normal, {}});
+  }
+  if (moved) recount();
+  arrived(status_->stamp);
+  if (moved) emit stateEntered(current());
+}
+
+void FsmModel::merge(const FsmHistoryEntry& entry) {
+  Visit visit{entry.step,  QString::fromStdString(entry.state), entry.entered, entry.left,
+              entry.cause, QString::fromStdString(entry.note)};
+  const auto at =
+      std::lower_bound(visits_.begin(), visits_.end(), visit.step,
+                       [](const Visit& v, std::uint64_t step) { return v.step < step; });
+  if (at != visits_.end() && at->step == visit.step) {
+    *at = std::move(visit);
+    return;
+  }
+  // A visit that was current when we last heard of it has ended by now.
+  if (at != visits_.begin() && (at - 1)->left == Stamp{}) (at - 1)->left = visit.entered;
+  visits_.insert(at, std::move(visit));
+  if (visits_.size() > kMaxVisits) visits_.erase(visits_.begin());
+}
+
+void FsmModel::recount() {
+  records_.clear();
+  taken_.clear();
+  for (std::size_t i = 0; i < visits_.size(); ++i) {
+    const Visit& visit = visits_[i];
+    StateRecord& record = records_[visit.state];
+    ++record.visits;
+    if (visit.left != Stamp{}) {
+      record.last_s = toSeconds(visit.left - visit.entered);
+      record.total_s += record.last_s;
+    }
+    if (i > 0 && visits_[i - 1].step + 1 == visit.step)
+      ++taken_[edgeKey(visits_[i - 1].state, visit.state)];
+  }
+}
+
+}  // namespace kiln::gui

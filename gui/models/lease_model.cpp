@@ -1,0 +1,40 @@
+#include "gui/models/lease_model.h"
+
+namespace kiln::gui {
+
+LeaseModel::LeaseModel(Link& link, CommandTracker& commands, QObject* parent)
+    : Model(link, AgeLimits{}, parent), commands_(commands) {
+  connect(&link, &Link::status, this, [this](const std::shared_ptr<const RobotStatus>& status) {
+    lease_ = status->lease;
+    arrived(status->stamp);
+  });
+  connect(&commands, &CommandTracker::progressed, this, [this] { touch(); });
+}
+
+LeaseHolder LeaseModel::holder() const {
+  if (!hasData() || ageLevel() == AgeLevel::Red) return LeaseHolder::Unknown;
+  if (lease_.holder_client.empty()) return LeaseHolder::Free;
+  return lease_.holder_client == link().clientId().toStdString() ? LeaseHolder::Mine
+                                                                 : LeaseHolder::Other;
+}
+
+QString LeaseModel::holderName() const { return QString::fromStdString(lease_.holder_name); }
+
+bool LeaseModel::requesting() const {
+  const TrackedCommand* command = commands_.find(request_);
+  return command && command->phase == CommandPhase::Sent;
+}
+
+QString LeaseModel::refusal() const {
+  const TrackedCommand* command = commands_.find(request_);
+  return command && command->bad() && !mine() ? command->reason : QString{};
+}
+
+void LeaseModel::request(bool take_over) {
+  request_ = commands_.send(AcquireLease{take_over},
+                            take_over ? tr("take over the lease") : tr("request the lease"));
+}
+
+void LeaseModel::release() { commands_.send(ReleaseLease{}, tr("release the lease")); }
+
+}  // namespace kiln::gui

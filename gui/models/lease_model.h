@@ -1,0 +1,32 @@
+#pragma once
+
+#include "gui/models/command_tracker.h"
+#include "gui/models/model.h"
+
+namespace kiln::gui {
+
+enum class LeaseHolder : std::uint8_t { Unknown, Free, Mine, Other };
+
+/// Who may command the robot, from its status. STOP needs no lease.
+class LeaseModel : public Model {
+  Q_OBJECT
+ public:
+  LeaseModel(Link& link, CommandTracker& commands, QObject* parent = nullptr);
+  [[nodiscard]] LeaseHolder holder() const;
+  [[nodiscard]] bool mine() const { return holder() == LeaseHolder::Mine; }
+  [[nodiscard]] QString holderName() const;
+  [[nodiscard]] const LeaseStatus& lease() const { return lease_; }
+  /// True from a request until the robot's answer shows.
+  [[nodiscard]] bool requesting() const;
+  /// Why the last request was refused; empty when it was not.
+  [[nodiscard]] QString refusal() const;
+  void request(bool take_over = false);
+  void release();
+
+ private:
+  CommandTracker& commands_;
+  LeaseStatus lease_;
+  std::uint64_t request_ = 0;
+};
+
+}  // namespace kiln::gui

@@ -1,0 +1,101 @@
+#include "gui/models/station_models.h"
+
+namespace kiln::gui {
+
+StationModels::StationModels(Link& link_in, QObject* parent)
+    : QObject(parent),
+      link(link_in),
+      commands(link),
+      status(link),
+      link_state(link),
+      stop(link, commands),
+      lease(link, commands),
+      fsm(link),
+      cloud(link),
+      thermal(link),
+      camera(link),
+      scene(link),
+      macros(link),
+      alarms(link, commands),
+      log(link),
+      trends(link) {
+  connect(&flush_timer_, &QTimer::timeout, this, &StationModels::flush);
+  connect(&age_timer_, &QTimer::timeout, this, [this] {
+    watchLink();
+    watchViews();
+    emit aged();
+  });
+  connect(&commands, &CommandTracker::progressed, this, [this](const TrackedCommand& command) {
+    if (command.bad())
+      log.addOwn(3, command.label + ": " + toText(command.phase) + ", " + command.reason);
+    if (command.phase == CommandPhase::Sent) log.addOwn(2, command.label + ": sent");
+  });
+  flush_timer_.start(kFlushPeriod_ms);
+  age_timer_.start(kAgePeriod_ms);
+}
+
+Stamp StationModels::robotNow() const { return link.robotNow().value_or(status.stamp()); }
+
+bool StationModels::mayCommand(QString* why) const {
+  const auto refuse = [why](const QString& text) {
+    if (why) *why = text;
+    return false;
+  };
+  if (status.word() == StatusWord::NoLink) return refuse(tr("no link to the robot"));
+  if (stop.latched()) return refuse(tr("stopped: clear the stop first"));
+  if (lease.holder() == LeaseHolder::Other)
+    return refuse(tr("%1 has the lease").arg(lease.holderName()));
+  if (!lease.mine()) return refuse(tr("needs the lease: request it in the top bar"));
+  return true;
+}
+
+bool StationModels::mayJog(QString* why) const {
+  if (!mayCommand(why)) return false;
+  if (status.status()->mode == Mode::Teleop) return true;
+  if (why) *why = tr("needs Teleop mode");
+  return false;
+}
+
+void StationModels::flush() {
+  commands.expire();
+  for (Model* model :
+       {static_cast<Model*>(&commands), static_cast<Model*>(&status),
+        static_cast<Model*>(&link_state), static_cast<Model*>(&stop), static_cast<Model*>(&lease),
+        static_cast<Model*>(&fsm), static_cast<Model*>(&cloud), static_cast<Model*>(&thermal),
+        static_cast<Model*>(&camera), static_cast<Model*>(&scene), static_cast<Model*>(&macros),
+        static_cast<Model*>(&alarms), static_cast<Model*>(&log), static_cast<Model*>(&trends)}) {
+    model->flush();
+  }
+}
+
+void StationModels::watchLink() {
+  const LinkHealth& health = link_state.health();
+  const bool heard_before = status.hasData();
+  alarms.setOwn(QStringLiteral("station.link_lost"), AlarmLevel::Warning,
+                heard_before && health.state == LinkState::Lost,
+                tr("No link to the robot: it does not answer"),
+                tr("check radio and robot; its dead-man has stopped any jog and the pumps"));
+  alarms.setOwn(
+      QStringLiteral("station.not_heard"), AlarmLevel::Caution,
+      heard_before && health.state == LinkState::Degraded && health.robot_hears_age_s > 1.5,
+      tr("The robot does not hear this station"),
+      tr("commands do not arrive; STOP has its own lane and may not arrive either"));
+  alarms.setOwn(QStringLiteral("station.refused"), AlarmLevel::Warning,
+                health.state == LinkState::Refused,
+                tr("The robot refused this station: %1").arg(health.reason),
+                tr("start matching versions on both ends"));
+}
+
+void StationModels::watchViews() {
+  const bool linked = link_state.health().state == LinkState::Up;
+  alarms.setOwn(QStringLiteral("station.camera_stale"), AlarmLevel::Caution,
+                linked && camera.hasData() && camera.ageLevel() == AgeLevel::Red,
+                tr("Operator camera frozen %1 s").arg(camera.ageS(), 0, 'f', 1),
+                tr("check its cable or use another view; jog from it is locked"));
+  alarms.setOwn(QStringLiteral("station.thermal_stale"), AlarmLevel::Caution,
+                linked && thermal.hasData() && thermal.ageLevel() == AgeLevel::Red,
+                tr("Thermal camera frozen %1 s").arg(thermal.ageS(), 0, 'f', 1),
+                tr("aiming waits for it; check its cable"));
+}
+
+}  // namespace kiln::gui

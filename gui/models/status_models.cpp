@@ -1,0 +1,62 @@
+#include "gui/models/status_models.h"
+
+namespace kiln::gui {
+
+StatusModel::StatusModel(Link& link, QObject* parent) : Model(link, AgeLimits{}, parent) {
+  connect(&link, &Link::status, this, [this](std::shared_ptr<const RobotStatus> status) {
+    status_ = std::move(status);
+    arrived(status_->stamp);
+  });
+  connect(&link, &Link::hello, this, [this](const HelloReply& reply) {
+    hello_ = reply;
+    touch();
+  });
+}
+
+StatusWord StatusModel::word() const {
+  if (!status_ || ageLevel() == AgeLevel::Red) return StatusWord::NoLink;
+  return status_->word;
+}
+
+QString StatusModel::robotName() const {
+  if (status_) return QString::fromStdString(status_->robot_name);
+  return QString::fromStdString(hello_.robot_name);
+}
+
+LinkModel::LinkModel(Link& link, QObject* parent) : Model(link, AgeLimits{}, parent) {
+  connect(&link, &Link::health, this, [this](const LinkHealth& health) {
+    health_ = health;
+    arrived(this->link().robotNow().value_or(Stamp{}));
+  });
+}
+
+MacroModel::MacroModel(Link& link, QObject* parent) : Model(link, kSlowAge, parent) {
+  connect(&link, &Link::macros, this, [this](const std::vector<MacroInfo>& macros) {
+    macros_ = macros;
+    touch();
+  });
+  connect(&link, &Link::status, this, [this](const std::shared_ptr<const RobotStatus>& status) {
+    running_ = status->macro;
+    arrived(status->stamp);
+  });
+}
+
+LogModel::LogModel(Link& link, QObject* parent) : Model(link, kSlowAge, parent) {
+  connect(&link, &Link::log, this, [this](const std::vector<LogLine>& lines) {
+    for (const LogLine& line : lines) add(line);
+  });
+}
+
+void LogModel::addOwn(int level, const QString& text) {
+  add(LogLine{link().robotNow().value_or(Stamp{}), level, "station", text.toStdString()});
+}
+
+void LogModel::add(LogLine line) {
+  if (lines_.size() == kCapacity) lines_.pop_front();
+  const Stamp stamp = line.stamp;
+  lines_.push_back(std::move(line));
+  ++total_;
+  arrived(stamp);
+}
+
+}  // namespace kiln::gui

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "gui/models/command_tracker.h"
+#include "gui/models/model.h"
+
+namespace kiln::gui {
+
+enum class StopStage : std::uint8_t {
+  Unreachable,  ///< the stop lane has no peer: the button cannot work
+  Clear,        ///< nothing latched
+  Sent,         ///< asked, not yet latched
+  Latched,      ///< the robot has latched it; something may still coast
+  Standstill,   ///< latched, and wheels, joints and pumps were measured at rest
+};
+
+/// STOP (software): the lane's own answer joined with what the robot's status says.
+class StopModel : public Model {
+  Q_OBJECT
+ public:
+  StopModel(Link& link, CommandTracker& commands, QObject* parent = nullptr);
+  [[nodiscard]] StopStage stage() const;
+  [[nodiscard]] bool latched() const {
+    return stage() == StopStage::Latched || stage() == StopStage::Standstill;
+  }
+  [[nodiscard]] const StopLane& lane() const { return lane_; }
+  [[nodiscard]] const StopStatus& robot() const { return robot_; }
+  void press();
+  /// Needs the lease; the caller has made the operator hold for 1 s. Moves nothing.
+  void clear();
+
+ private:
+  CommandTracker& commands_;
+  StopLane lane_;
+  StopStatus robot_;
+};
+
+}  // namespace kiln::gui
