@@ -22,6 +22,7 @@ function(kiln_program NAME)
   add_executable(${NAME} ${ARG_SOURCES})
   target_link_libraries(${NAME} PRIVATE kiln_options kiln_warnings ${ARG_DEPS})
   target_compile_definitions(${NAME} PRIVATE KILN_VERSION="${PROJECT_VERSION}")
+  set_property(GLOBAL APPEND PROPERTY KILN_PROGRAMS ${NAME})
 endfunction()
 
 # kiln_test(NAME SOURCES ... DEPS ... [LABEL unit] [TIMEOUT 30] [DISPLAY]) -> one ctest entry running the gtest binary.
@@ -44,8 +45,7 @@ function(kiln_test NAME)
   else()
     add_test(NAME ${NAME} COMMAND ${NAME})
   endif()
-  set_tests_properties(${NAME} PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT}
-    ENVIRONMENT "KILN_DATA_DIR=$ENV{KILN_DATA_DIR}")
+  set_tests_properties(${NAME} PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT})
 endfunction()
 
 # kiln_bench(NAME SOURCES ... DEPS ...) -> a google/benchmark program, run by `./kiln bench`, never by ctest
@@ -64,4 +64,12 @@ function(kiln_folders)
       add_subdirectory(${folder})
     endif()
   endforeach()
+endfunction()
+
+# kiln_aggregates(): the targets `programs` (what ./kiln build makes) and `benches`; to be called last
+function(kiln_aggregates)
+  get_property(programs GLOBAL PROPERTY KILN_PROGRAMS)
+  get_property(benches GLOBAL PROPERTY KILN_BENCHES)
+  add_custom_target(programs DEPENDS ${programs})
+  add_custom_target(benches DEPENDS ${benches})
 endfunction()
