@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 
+#include "common/config/config_archive.h"
 #include "common/core/clock.h"
 #include "common/robot_model/robot_geometry.h"
 #include "robot/hal/arm.h"
@@ -16,33 +17,52 @@ struct ArmSetpoint {
   Kind kind = Kind::Hold;
   Stamp stamp;
   Duration ttl = std::chrono::milliseconds(250);
-  Vector6d q = Vector6d::Zero();       ///< Joints: target for this instant on a jerk-limited trajectory, rad
-  Vector6d qd = Vector6d::Zero();      ///< Joints: feed-forward; JointVelocity: the wish, rad/s
-  double stop_force_n = 0.0;           ///< > 0: guarded motion, stop and latch a contact above this force
+  Vector6d q =
+      Vector6d::Zero();  ///< Joints: target for this instant on a jerk-limited trajectory, rad
+  Vector6d qd = Vector6d::Zero();  ///< Joints: feed-forward; JointVelocity: the wish, rad/s
+  double stop_force_n = 0.0;  ///< > 0: guarded motion, stop and latch a contact above this force
 };
 
 struct ArmTracking {
   Stamp stamp;
-  bool ready = false;                  ///< state is fresh and the arm may move
+  bool ready = false;  ///< state is fresh and the arm may move
   Vector6d q_command = Vector6d::Zero();
   double tracking_error_rad = 0.0;
-  bool contact_stop = false;           ///< latched until the next Hold setpoint
+  bool contact_stop = false;  ///< latched until the next Hold setpoint
   double contact_force_n = 0.0;
   bool at_rest = true;
-  std::string blocked;                 ///< why it does not move: "protective stop", "STOP latched", "setpoint too old" ...
+  bool protective_stop = false;  ///< latched until releaseProtectiveStop()
+  bool refused =
+      false;  ///< the newest setpoint was refused (NaN, out of limits, jump); `blocked` says why
+  std::string
+      blocked;  ///< why it does not move: "protective stop", "STOP latched", "setpoint too old" ...
 };
 
-/// Tracks setpoints at the servo rate with velocity, acceleration and jerk limits. Refuses NaN, out-of-limit and
-/// stale setpoints; never lets one reach the device. setpoint()/tracking() are thread-safe, tick() is confined to
-/// the control thread.
+/// Tracks setpoints at the servo rate with velocity, acceleration and jerk limits. Refuses NaN,
+/// out-of-limit and stale setpoints; never lets one reach the device. A protective stop of the
+/// device is latched here: only releaseProtectiveStop() ends it, and then nothing moves until a
+/// fresh setpoint comes. setpoint(), tracking() and releaseProtectiveStop() are thread-safe, tick()
+/// is confined to the control thread.
 class ArmController {
  public:
   struct Config {
-    double servo_rate_hz = 125.0;      ///< 500 for a UR10e
-    double max_speed_scale = 0.5;      ///< of the vendor's joint speed limits
+    double servo_rate_hz = 125.0;  ///< 500 for a UR10e
+    double max_speed_scale = 0.5;  ///< of the vendor's joint speed limits
     double max_accel_radps2 = 4.0;
     double max_jerk_radps3 = 40.0;
     double stop_decel_radps2 = 8.0;
+    double stop_jerk_radps3 = 160.0;  ///< ramp-in of the stop: full deceleration after 50 ms
+    double tracking_gain_hz = 5.0;    ///< 1/s, joint error to correcting speed
+    double max_lead_s =
+        0.2;  ///< a target that the speed limit does not reach within this is a jump: refused
+    double limit_margin_deg = 2.0;  ///< soft limits inside the vendor's joint range
+    double max_tracking_error_deg =
+        12.0;  ///< measured against commanded; more stops and latches until Hold
+    double max_state_age_s = 0.1;
+    double future_tolerance_s = 0.05;  ///< setpoints stamped further ahead are refused
+    double force_filter_s = 0.02;      ///< low-pass against 1 N rms noise of the sensor
+    double force_bias_filter_s = 1.0;  ///< slow mean of the force at rest, subtracted
+    double max_force_bias_n = 10.0;    ///< a real contact must not be learnt away
     void visit(ConfigArchive& a);
   };
   ArmController(Config config, const RobotGeometry& robot, Arm& arm, const StopLatch& stop);
@@ -50,6 +70,9 @@ class ArmController {
   void setpoint(const ArmSetpoint& setpoint);
   void tick(Stamp now);
   [[nodiscard]] ArmTracking tracking() const;
+  /// Ends a latched protective stop, at the device and here. Only on the operator's explicit word.
+  /// Afterwards the command is the measured pose and every earlier setpoint is void.
+  Result<void> releaseProtectiveStop();
 
  private:
   struct Impl;

@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 
+#include "common/config/config_archive.h"
 #include "common/core/clock.h"
 #include "common/robot_model/robot_geometry.h"
 #include "robot/hal/drive_base.h"
@@ -10,27 +11,30 @@
 
 namespace kiln {
 
-/// Wanted velocity of the base; older than `ttl` means ramp to zero (begins within 250 ms of the last one, at
-/// 2 m/s^2).
+/// Wanted velocity of the base; older than `ttl` means ramp to zero (begins within 250 ms of the
+/// last one, at 2 m/s^2).
 struct BaseSetpoint {
   Stamp stamp;
   Duration ttl = std::chrono::milliseconds(250);
-  Twist2 twist;                        ///< base frame
+  Twist2 twist;  ///< base frame
 };
 
 struct BaseTracking {
   Stamp stamp;
   bool ready = false;
-  Twist2 commanded;                    ///< after limits
-  Twist2 measured;                     ///< from the wheels
-  Pose2 X_odom_base;                   ///< wheel odometry since the last reset
+  Twist2 commanded;       ///< after limits
+  Twist2 measured;        ///< from the wheels
+  Pose2 X_odom_base;      ///< wheel odometry since the last reset
+  double slip_mps = 0.0;  ///< rms disagreement of the wheels with one rigid motion
+  bool aligning = false;  ///< waits for the wheels to point the right way
   bool at_rest = true;
   std::string blocked;
 };
 
-/// Four steered wheels: inverse kinematics with steering range and rate limits (waits for the wheels to point the
-/// right way before driving), velocity, acceleration and jerk limits, odometry from the measured wheels.
-/// setpoint()/tracking() thread-safe; tick() confined to the control thread.
+/// Four steered wheels: inverse kinematics with steering range and rate limits (waits for the
+/// wheels to point the right way before driving), velocity, acceleration and jerk limits, odometry
+/// from the measured wheels. setpoint()/tracking() thread-safe; tick() confined to the control
+/// thread.
 class BaseController {
  public:
   struct Config {
@@ -39,6 +43,14 @@ class BaseController {
     double max_accel_mps2 = 0.8;
     double stop_decel_mps2 = 2.0;
     double max_jerk_mps3 = 4.0;
+    double stop_jerk_mps3 = 20.0;  ///< ramp-in of the stop: 2 m/s^2 after 0.1 s
+    double max_setpoint_age_s =
+        0.22;  ///< stop begins at the smaller of this and the setpoint's ttl
+    double max_state_age_s = 0.1;
+    double future_tolerance_s = 0.05;    ///< setpoints stamped further ahead are refused
+    double min_wheel_speed_mps = 0.004;  ///< slower wheels keep their angle
+    double align_wait_deg = 30.0;        ///< a wheel further off than this: stop and turn it first
+    double align_done_deg = 4.0;
     void visit(ConfigArchive& a);
   };
   BaseController(Config config, const RobotGeometry& robot, DriveBase& base, const StopLatch& stop);

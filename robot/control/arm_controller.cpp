@@ -1,0 +1,298 @@
+#include "robot/control/arm_controller.h"
+
+#include <atomic>
+#include <cmath>
+#include <mutex>
+
+#include <fmt/format.h>
+
+#include "robot/control/arm_setpoint_check.h"
+#include "robot/control/contact_monitor.h"
+#include "robot/control/joint_tracker.h"
+#include "robot/control/setpoint_slot.h"
+
+namespace kiln {
+namespace {
+
+constexpr double kDeg = M_PI / 180.0;
+constexpr double kMaxTick = 0.05;  // s; a longer gap is a slipped tick, not a longer step
+constexpr double kExtrapolate =
+    0.06;  // s; three periods of 50 Hz setpoints, then the reference stands
+constexpr double kRestSpeed = 0.02;    // rad/s, measured
+constexpr double kCommandRest = 1e-4;  // rad/s
+constexpr auto kMaxTtl = std::chrono::milliseconds(250);
+
+}  // namespace
+
+void ArmController::Config::visit(ConfigArchive& a) {
+  a.field("servo_rate_hz", servo_rate_hz, "Hz", 50, 500, "control tick; 500 for a UR10e");
+  a.field("max_speed_scale", max_speed_scale, "", 0.01, 1, "of the vendor's joint speed limits");
+  a.field("max_accel_radps2", max_accel_radps2, "rad/s^2", 0.1, 20, "each joint");
+  a.field("max_jerk_radps3", max_jerk_radps3, "rad/s^3", 1, 500, "each joint");
+  a.field("stop_decel_radps2", stop_decel_radps2, "rad/s^2", 1, 40, "on STOP, contact and loss");
+  a.field("stop_jerk_radps3", stop_jerk_radps3, "rad/s^3", 10, 2000, "ramp-in of the stop");
+  a.field("tracking_gain_hz", tracking_gain_hz, "1/s", 0.5, 20, "joint error to correcting speed");
+  a.field("max_lead_s", max_lead_s, "s", 0.02, 1, "targets further ahead at full speed are jumps");
+  a.field("limit_margin_deg", limit_margin_deg, "deg", 0, 20, "soft limits inside the joint range");
+  a.field("max_tracking_error_deg", max_tracking_error_deg, "deg", 1, 60, "more stops the arm");
+  a.field("max_state_age_s", max_state_age_s, "s", 0.01, 0.5, "older arm states mean stop");
+  a.field("future_tolerance_s", future_tolerance_s, "s", 0, 0.5, "setpoints further ahead refused");
+  a.field("force_filter_s", force_filter_s, "s", 0.001, 0.5, "low-pass of the contact force");
+  a.field("force_bias_filter_s", force_bias_filter_s, "s", 0.1, 60, "slow mean of the force");
+  a.field("max_force_bias_n", max_force_bias_n, "N", 0, 50, "largest mean that is taken away");
+}
+
+struct ArmController::Impl {
+  using Kind = ArmSetpoint::Kind;
+
+  Impl(Config c, const RobotGeometry& robot, Arm& device, const StopLatch& stop_latch)
+      : config(c),
+        hard_limit(robot.arm.position_limit),
+        vendor_speed(robot.arm.velocity_limit),
+        arm(device),
+        stop(stop_latch),
+        contact({c.force_filter_s, c.force_bias_filter_s, c.max_force_bias_n}) {
+    limits.position = hard_limit.array() - c.limit_margin_deg * kDeg;
+    limits.speed = robot.arm.velocity_limit * c.max_speed_scale;
+    limits.max_lead_s = c.max_lead_s;
+  }
+
+  /// Everything that forbids motion whatever the setpoint says; empty if nothing does.
+  std::string deviceBlock(Stamp now, const std::optional<ArmState>& state) {
+    if (!state) return "no arm state yet";
+    if (!state->q.allFinite() || !state->qd.allFinite()) return "arm state is not a number";
+    switch (state->safety) {
+      case ArmSafetyMode::ProtectiveStop:
+        protective = true;
+        break;
+      case ArmSafetyMode::EmergencyStop:
+        return "emergency stop at the arm";
+      case ArmSafetyMode::Fault:
+        return "arm fault";
+      case ArmSafetyMode::Normal:
+      case ArmSafetyMode::Reduced:
+        if (protective && release_requested.exchange(false)) protective = false;
+        break;
+    }
+    if (protective) return "protective stop: it needs the operator's word to be released";
+    if (!state->powered) return "arm is not powered";
+    const double age = toSeconds(now - state->stamp);
+    if (age > config.max_state_age_s) return fmt::format("arm state is {:.0f} ms old", 1e3 * age);
+    return "";
+  }
+
+  /// In these the device holds or falls by itself: the command must follow the joints, not the
+  /// other way round.
+  bool mustFollowDevice(const std::optional<ArmState>& state) const {
+    return protective || !state->powered || state->safety == ArmSafetyMode::EmergencyStop ||
+           state->safety == ArmSafetyMode::Fault;
+  }
+
+  void followDevice(const ArmState& state) {
+    tracker.reset(state.q);
+    slot.clear();
+    current = {};
+    contact_stop = tracking_lost = false;
+    synchronised = true;
+  }
+
+  /// The setpoint to act on, or why there is none.
+  std::string takeSetpoint(Stamp now) {
+    const auto taken = slot.take(now, kMaxTtl, fromSeconds(config.future_tolerance_s));
+    refused = taken.refused;
+    if (!taken.setpoint) {
+      current = {};
+      has_previous = false;
+      return taken.blocked;
+    }
+    const ArmSetpoint& next = *taken.setpoint;
+    if (next.stamp == current.stamp && next.kind == current.kind) return "";
+    const std::string why = refusal(next, tracker.position(), limits);
+    if (!why.empty()) {
+      slot.refuse(why);
+      refused = true;
+      current = {};
+      has_previous = false;
+      return why;
+    }
+    accept(next);
+    return "";
+  }
+
+  void accept(const ArmSetpoint& next) {
+    qdd_reference.setZero();
+    const double gap = toSeconds(next.stamp - current.stamp);
+    if (has_previous && current.kind == Kind::Joints && next.kind == Kind::Joints && gap > 0.0 &&
+        gap < kExtrapolate) {
+      const Vector6d slope = (next.qd - current.qd) / gap;
+      qdd_reference = slope.cwiseMax(-config.max_accel_radps2).cwiseMin(config.max_accel_radps2);
+    }
+    current = next;
+    has_previous = true;
+    if (next.kind == Kind::Hold) {
+      contact_stop = false;
+      if (tracking_lost && tracker.velocity().cwiseAbs().maxCoeff() < kCommandRest) resync = true;
+      tracking_lost = false;
+    }
+  }
+
+  /// Latched ends of guarded or failing motion.
+  std::string motionBlock(const ArmState& state) {
+    const double error = (tracker.position() - state.q).cwiseAbs().maxCoeff();
+    if (error > config.max_tracking_error_deg * kDeg) tracking_lost = true;
+    if (current.stop_force_n > 0.0 && contact.force() > current.stop_force_n) contact_stop = true;
+    if (contact_stop) return fmt::format("contact of {:.0f} N", contact.force());
+    if (tracking_lost) {
+      return fmt::format("arm does not follow: {:.1f} deg behind", error / kDeg);
+    }
+    return "";
+  }
+
+  JointTracker::Reference referenceAt(Stamp now) const {
+    const double since = std::clamp(toSeconds(now - current.stamp), 0.0, kExtrapolate);
+    JointTracker::Reference ref;
+    ref.q = current.q + current.qd * since + 0.5 * qdd_reference * since * since;
+    ref.q = ref.q.cwiseMax(-limits.position).cwiseMin(limits.position);
+    if (since < kExtrapolate) {
+      ref.qd = current.qd + qdd_reference * since;
+      ref.qdd = qdd_reference;
+    }
+    return ref;
+  }
+
+  /// Jog speed within the limits, slowing down before the end of the joint range.
+  Vector6d jogSpeed() const {
+    Vector6d qd = current.qd.cwiseMax(-limits.speed).cwiseMin(limits.speed);
+    for (int i = 0; i < 6; ++i) {
+      const double side = qd[i] < 0 ? -1.0 : 1.0;
+      const double room = std::max(0.0, limits.position[i] - side * tracker.position()[i]);
+      const double allowed = std::min(std::sqrt(config.max_accel_radps2 * room), 4.0 * room);
+      qd[i] = side * std::min(std::abs(qd[i]), allowed);
+    }
+    return qd;
+  }
+
+  void move(Stamp now, bool blocked, double dt) {
+    const MotionLimits usual{config.max_accel_radps2, config.max_jerk_radps3};
+    const MotionLimits fast{config.stop_decel_radps2, config.stop_jerk_radps3};
+    if (blocked) {
+      tracker.stepVelocity(Vector6d::Zero(), fast, dt);
+    } else if (current.kind == Kind::Joints) {
+      tracker.stepReference(referenceAt(now), config.tracking_gain_hz, limits.speed, usual, dt);
+    } else if (current.kind == Kind::JointVelocity) {
+      tracker.stepVelocity(jogSpeed(), usual, dt);
+    } else {
+      tracker.stepVelocity(Vector6d::Zero(), usual, dt);
+    }
+  }
+
+  /// The last gate before the device: whatever went wrong above, no bad command passes.
+  std::string send(const Vector6d& before, double dt) {
+    const Vector6d q = tracker.position();
+    const Vector6d step = (q - before).cwiseAbs();
+    bool good = q.allFinite() && tracker.velocity().allFinite();
+    for (int i = 0; good && i < 6; ++i) {
+      const bool outwards = std::abs(q[i]) > hard_limit[i] && std::abs(q[i]) > std::abs(before[i]);
+      good = step[i] <= vendor_speed[i] * dt + 1e-9 && !outwards;
+    }
+    if (!good) {
+      tracker.reset(before);
+      return "command held: it would have left the joint limits";
+    }
+    const auto sent = arm.servo({q, tracker.velocity()});
+    return sent ? "" : sent.error().message;
+  }
+
+  void publish(Stamp now, const std::optional<ArmState>& state, const std::string& blocked,
+               bool ready) {
+    const std::lock_guard lock(mutex);
+    tracking.stamp = now;
+    tracking.ready = ready;
+    tracking.q_command = tracker.position();
+    if (state && state->q.allFinite()) {
+      tracking.tracking_error_rad = (tracker.position() - state->q).cwiseAbs().maxCoeff();
+      tracking.at_rest = tracker.velocity().cwiseAbs().maxCoeff() < kCommandRest &&
+                         state->qd.cwiseAbs().maxCoeff() < kRestSpeed;
+    }
+    tracking.contact_stop = contact_stop;
+    tracking.contact_force_n = contact.force();
+    tracking.protective_stop = protective;
+    tracking.refused = refused;
+    tracking.blocked = blocked;
+  }
+
+  Config config;
+  Vector6d hard_limit, vendor_speed;
+  ArmSetpointLimits limits;
+  Arm& arm;
+  const StopLatch& stop;
+  SetpointSlot<ArmSetpoint> slot;
+  JointTracker tracker;
+  ContactMonitor contact;
+  ArmSetpoint current;
+  Vector6d qdd_reference = Vector6d::Zero();
+  bool has_previous = false, synchronised = false, resync = false;
+  bool protective = false, contact_stop = false, tracking_lost = false, refused = false;
+  std::atomic<bool> release_requested{false};
+  std::optional<Stamp> last_tick;
+  mutable std::mutex mutex;
+  ArmTracking tracking;
+};
+
+ArmController::ArmController(Config config, const RobotGeometry& robot, Arm& arm,
+                             const StopLatch& stop)
+    : impl_(std::make_unique<Impl>(config, robot, arm, stop)) {}
+ArmController::~ArmController() = default;
+
+void ArmController::setpoint(const ArmSetpoint& setpoint) {
+  if (!isFinite(setpoint)) {
+    impl_->slot.refuse("setpoint is not a number");
+    return;
+  }
+  impl_->slot.put(setpoint);
+}
+
+Result<void> ArmController::releaseProtectiveStop() {
+  const auto released = impl_->arm.releaseProtectiveStop();
+  if (released) impl_->release_requested = true;
+  return released;
+}
+
+void ArmController::tick(Stamp now) {
+  Impl& m = *impl_;
+  const double dt = m.last_tick ? std::clamp(toSeconds(now - *m.last_tick), 0.0, kMaxTick) : 0.0;
+  m.last_tick = now;
+  const std::optional<ArmState> state = m.arm.state();
+  std::string blocked = m.deviceBlock(now, state);
+  const bool usable = state && state->q.allFinite() && state->qd.allFinite();
+  if (usable && (!m.synchronised || m.resync || m.mustFollowDevice(state))) {
+    m.followDevice(*state);
+    m.resync = false;
+  }
+  const bool ready = blocked.empty() && !m.stop.latched();
+  if (usable && state->wrench_tool.allFinite()) {
+    const bool at_rest = m.tracker.velocity().cwiseAbs().maxCoeff() < kCommandRest;
+    m.contact.update(state->wrench_tool.head<3>(), at_rest, dt);
+  }
+  if (blocked.empty() && m.stop.latched()) {
+    m.slot.clear();
+    m.current = {};
+    blocked = "STOP latched by " + m.stop.source();
+  }
+  if (blocked.empty()) blocked = m.takeSetpoint(now);
+  if (usable && blocked.empty()) blocked = m.motionBlock(*state);
+  if (m.synchronised && !(usable && m.mustFollowDevice(state)) && dt > 0.0) {
+    const Vector6d before = m.tracker.position();
+    m.move(now, !blocked.empty(), dt);
+    const std::string failed = m.send(before, dt);
+    if (blocked.empty()) blocked = failed;
+  }
+  m.publish(now, state, blocked, ready);
+}
+
+ArmTracking ArmController::tracking() const {
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->tracking;
+}
+
+}  // namespace kiln

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Core>
+
+namespace kiln {
+
+struct MotionLimits {
+  double accel = 1.0;  ///< unit/s^2, > 0
+  double jerk = 10.0;  ///< unit/s^3, > 0
+};
+
+/// Largest acceleration towards a speed that is `error` > 0 away such that, falling by jerk * dt a
+/// step, it ends at zero without passing the target. Exact for a sampled system: a dt + a^2 / (2 j)
+/// - a dt / 2 = error.
+[[nodiscard]] inline double approachAcceleration(double error, const MotionLimits& limits,
+                                                 double dt) {
+  const double h = 0.5 * limits.jerk * dt;
+  const double curve = -h + std::sqrt(h * h + 2.0 * limits.jerk * error);
+  return std::min({curve, error / dt, limits.accel});
+}
+
+/// Brings a velocity vector to a target along a straight line in velocity space, with the norm of
+/// acceleration and jerk limited. A ramp to zero therefore keeps its direction: a swerve base
+/// brakes without turning its wheels.
+template <int N>
+class JerkLimiter {
+ public:
+  using Vector = Eigen::Matrix<double, N, 1>;
+
+  /// One step of dt > 0 towards `target`. `feed_forward` is the target's own acceleration, if
+  /// known.
+  const Vector& step(const Vector& target, const MotionLimits& limits, double dt,
+                     const Vector& feed_forward = Vector::Zero()) {
+    const Vector error = target - velocity_ - feed_forward * dt;
+    const double size = error.norm();
+    Vector wanted = feed_forward;
+    if (size > 1e-12) wanted += error * (approachAcceleration(size, limits, dt) / size);
+    if (wanted.norm() > limits.accel) wanted *= limits.accel / wanted.norm();
+    Vector change = wanted - acceleration_;
+    const double max_change = limits.jerk * dt;
+    if (change.norm() > max_change) change *= max_change / change.norm();
+    acceleration_ += change;
+    velocity_ += acceleration_ * dt;
+    if ((target - velocity_).norm() < 1e-9 && feed_forward.isZero()) {
+      velocity_ = target;
+      if (acceleration_.norm() <= max_change) acceleration_.setZero();
+    }
+    return velocity_;
+  }
+  void reset(const Vector& velocity = Vector::Zero()) {
+    velocity_ = velocity;
+    acceleration_.setZero();
+  }
+  [[nodiscard]] const Vector& velocity() const { return velocity_; }
+  [[nodiscard]] const Vector& acceleration() const { return acceleration_; }
+
+ private:
+  Vector velocity_ = Vector::Zero();
+  Vector acceleration_ = Vector::Zero();
+};
+
+}  // namespace kiln

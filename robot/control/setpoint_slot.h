@@ -1,0 +1,65 @@
+#pragma once
+
+#include <algorithm>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "common/core/stamp.h"
+
+namespace kiln {
+
+/// The newest setpoint of one controller and the rules that all of them share: refused ones void
+/// the one before, older stamps than the newest are dropped, too old or future ones mean stop.
+/// Thread-safe.
+template <class Setpoint>
+class SetpointSlot {
+ public:
+  struct Taken {
+    std::optional<Setpoint> setpoint;  ///< nullopt: stop
+    std::string blocked;               ///< why there is none
+    bool refused = false;
+  };
+
+  void put(const Setpoint& setpoint) {
+    const std::lock_guard lock(mutex_);
+    if (newest_ && setpoint.stamp < newest_->stamp) return;  // re-ordered on the way
+    newest_ = setpoint;
+    refusal_.clear();
+  }
+  /// A bad setpoint stops what runs: whoever sent it is not to be trusted with the motion.
+  void refuse(std::string reason) {
+    const std::lock_guard lock(mutex_);
+    newest_.reset();
+    refusal_ = std::move(reason);
+  }
+  /// Forgets everything: after STOP or a protective stop nothing old may move the robot.
+  void clear() {
+    const std::lock_guard lock(mutex_);
+    newest_.reset();
+    refusal_.clear();
+  }
+  [[nodiscard]] Taken take(Stamp now, Duration max_age, Duration future_tolerance) const {
+    const std::lock_guard lock(mutex_);
+    if (!refusal_.empty()) return {std::nullopt, refusal_, true};
+    if (!newest_) return {std::nullopt, "no setpoint", false};
+    const Duration age = now - newest_->stamp;
+    if (-age > future_tolerance) {
+      return {std::nullopt,
+              fmt::format("setpoint is {:.0f} ms in the future", -1e3 * toSeconds(age)), true};
+    }
+    if (age >= std::min(newest_->ttl, max_age)) {
+      return {std::nullopt, fmt::format("setpoint is {:.0f} ms old", 1e3 * toSeconds(age)), false};
+    }
+    return {newest_, "", false};
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::optional<Setpoint> newest_;
+  std::string refusal_;
+};
+
+}  // namespace kiln
