@@ -1,0 +1,120 @@
+#include "robot/safety/gate_rules.h"
+
+namespace kiln::gate {
+namespace {
+
+GateDecision refuseStopped() {
+  return refuse("stopped",
+                "STOP is latched: nothing moves; clear it first (1 s hold, needs control)");
+}
+
+/// One overload a kind, so that a new command does not compile until somebody has decided when it
+/// may pass.
+struct SituationRule {
+  const GateSituation& now;
+
+  GateDecision operator()(const AcquireLease&) const { return {}; }
+  GateDecision operator()(const ReleaseLease&) const { return {}; }
+  GateDecision operator()(const StartMission&) const {
+    if (now.stop_latched) return refuseStopped();
+    if (now.mode == Mode::Teleop) {
+      return refuse("wrong_mode",
+                    "a mission does not start in Teleop; choose Autonomous or Supervised first");
+    }
+    if (now.mission_running) return refuse("already_running", "the mission is running already");
+    if (!now.ready)
+      return refuse("not_ready", fmt::format("the robot is not ready: {}", now.not_ready_reason));
+    return {};
+  }
+  GateDecision operator()(const Pause&) const {
+    if (now.stop_latched) return refuseStopped();
+    if (!now.mission_running)
+      return refuse("not_running", "no mission is running; there is nothing to pause");
+    return {};
+  }
+  GateDecision operator()(const Resume&) const {
+    if (now.stop_latched) return refuseStopped();
+    if (now.mode == Mode::Teleop) {
+      return refuse("wrong_mode",
+                    "the mission rests in Teleop; choose Autonomous or Supervised, then resume");
+    }
+    if (!now.mission_paused) return refuse("not_paused", "the mission is not paused");
+    return {};
+  }
+  GateDecision operator()(const ChangeState&) const {
+    return now.stop_latched ? refuseStopped() : GateDecision{};
+  }
+  GateDecision operator()(const SetMode& b) const {
+    if (b.mode != Mode::Autonomous && b.mode != Mode::Supervised && b.mode != Mode::Teleop) {
+      return refuse("out_of_range",
+                    "only Autonomous, Supervised and Teleop can be chosen; STOP has its own lane");
+    }
+    return now.stop_latched ? refuseStopped() : GateDecision{};
+  }
+  GateDecision operator()(const ClearStop&) const {
+    if (!now.stop_latched) return refuse("not_stopped", "no STOP is latched");
+    if (now.anything_held)
+      return refuse("still_held", "a jog, pump or macro is still held; let go, then clear");
+    return {};
+  }
+  GateDecision operator()(const ReleaseProtectiveStop&) const {
+    if (!now.protective_stop)
+      return refuse("no_protective_stop", "the arm is not in a protective stop");
+    return {};
+  }
+  GateDecision operator()(const ResetRobot&) const {
+    return {};
+  }  // the referee may call one at any time
+  GateDecision operator()(const SetSpeedScale&) const { return {}; }
+  GateDecision operator()(const CancelMacro&) const { return {}; }
+  GateDecision operator()(const AcknowledgeAlarm&) const { return {}; }
+  GateDecision operator()(const JogBase&) const { return byHand("jog"); }
+  GateDecision operator()(const JogArm&) const {
+    auto decision = byHand("jog");
+    if (decision.accepted && now.protective_stop) return refuseProtective();
+    return decision;
+  }
+  GateDecision operator()(const HoldPump&) const { return byHand("pumps by hand"); }
+  GateDecision operator()(const HoldMacro&) const {
+    if (now.stop_latched) return refuseStopped();
+    if (now.mode != Mode::Teleop && now.mode != Mode::Supervised)
+      return wrongMode("macros", "Supervised or Teleop");
+    if (now.protective_stop) return refuseProtective();
+    return {};
+  }
+  GateDecision operator()(const ReleaseAll&) const { return {}; }
+
+ private:
+  GateDecision byHand(const char* what) const {
+    if (now.stop_latched) return refuseStopped();
+    if (now.mode != Mode::Teleop) return wrongMode(what, "Teleop");
+    return {};
+  }
+  GateDecision wrongMode(const char* what, const char* where) const {
+    return refuse("wrong_mode",
+                  fmt::format("the robot is in mode {}; {} need {}: change the mode first",
+                              toString(now.mode), what, where));
+  }
+  static GateDecision refuseProtective() {
+    return refuse("protective_stop",
+                  "the arm is in a protective stop; look, then release it on your word");
+  }
+};
+
+}  // namespace
+
+GateDecision refuse(std::string code, std::string reason) {
+  return {false, std::move(code), std::move(reason), 0.0};
+}
+
+bool needsLease(const CommandBody& body) {
+  return !std::holds_alternative<AcquireLease>(body) &&
+         !std::holds_alternative<ReleaseLease>(body) &&
+         !std::holds_alternative<AcknowledgeAlarm>(body);
+}
+
+GateDecision checkSituation(const CommandBody& body, const GateSituation& situation) {
+  return std::visit(SituationRule{situation}, body);
+}
+
+}  // namespace kiln::gate

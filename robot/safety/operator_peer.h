@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+
+#include "common/model/command.h"
+
+namespace kiln {
+
+/// A command as it came in. `command.issued` and `received` are both robot time.
+struct ReceivedCommand {
+  Command command;
+  Stamp received;
+  ClientRole role = ClientRole::Operator;  ///< what the sender said in its hello
+  double rtt_s = 0.0;                      ///< the sender's round trip, as it last reported it
+};
+
+/// A client that has said hello.
+struct OperatorPeer {
+  std::string client_id;
+  std::string name;
+  std::string version;
+  ClientRole role = ClientRole::Operator;
+  Stamp last_heard;            ///< any message of it on the command socket: renews its lease
+  double rx_age_s = 0.0;       ///< age of last_heard, by the link's own clock
+  double peer_rx_age_s = 0.0;  ///< how old our last message is as the peer sees it (a deaf station)
+  double rtt_s = 0.0;          ///< 0 = not measured yet
+};
+
+/// A STOP that arrived on the stop lane; the latch is set already.
+struct StopEvent {
+  std::string client_id;
+  std::string operator_name;
+  Stamp latched;
+};
+
+}  // namespace kiln
