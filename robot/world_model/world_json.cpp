@@ -1,0 +1,122 @@
+#include "robot/world_model/world_json.h"
+
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+namespace kiln {
+namespace {
+using nlohmann::json;
+
+json toJson(const FireEstimate& estimate) {
+  std::vector<double> covariance(estimate.covariance.data(), estimate.covariance.data() + 9);
+  return {{"stamp_ns", toNanoseconds(estimate.stamp)},
+          {"p_map", {estimate.p_map.x(), estimate.p_map.y(), estimate.p_map.z()}},
+          {"covariance_m2", covariance},
+          {"views", estimate.views},
+          {"peak_k", estimate.peak_k},
+          {"range_m", estimate.range_m},
+          {"baseline_range_m", estimate.baseline_range_m},
+          {"place", estimate.place}};
+}
+
+Eigen::Vector3d vectorFrom(const json& j) {
+  return {j.at(0).get<double>(), j.at(1).get<double>(), j.at(2).get<double>()};
+}
+
+FireEstimate estimateFrom(const json& j) {
+  FireEstimate out;
+  out.stamp = stampFromNanoseconds(j.at("stamp_ns").get<std::int64_t>());
+  out.p_map = vectorFrom(j.at("p_map"));
+  for (std::size_t i = 0; i < 9; ++i)
+    out.covariance.data()[i] = j.at("covariance_m2").at(i).get<double>();
+  out.views = j.at("views").get<int>();
+  out.peak_k = j.at("peak_k").get<double>();
+  out.range_m = j.at("range_m").get<double>();
+  out.baseline_range_m = j.at("baseline_range_m").get<double>();
+  out.place = j.at("place").get<std::string>();
+  return out;
+}
+
+json toJson(const FirePlace& place) {
+  json out = {
+      {"name", place.name},
+      {"p_plate_map", {place.p_plate_map.x(), place.p_plate_map.y(), place.p_plate_map.z()}},
+      {"facing_rad", place.facing_rad},
+      {"visited", place.visited},
+      {"extinguished", place.extinguished},
+      {"litres_est", place.litres_est},
+      {"searches", place.searches},
+      {"losses", place.losses},
+      {"pump_faults", place.pump_faults},
+      {"arm_faults", place.arm_faults},
+      {"drive_faults", place.drive_faults},
+      {"outcome", place.outcome}};
+  if (place.estimate) out["estimate"] = toJson(*place.estimate);
+  return out;
+}
+
+FirePlace placeFrom(const json& j) {
+  FirePlace out;
+  out.name = j.at("name").get<std::string>();
+  out.p_plate_map = vectorFrom(j.at("p_plate_map"));
+  out.facing_rad = j.at("facing_rad").get<double>();
+  out.visited = j.at("visited").get<bool>();
+  out.extinguished = j.at("extinguished").get<bool>();
+  out.litres_est = j.at("litres_est").get<double>();
+  out.searches = j.at("searches").get<int>();
+  out.losses = j.at("losses").get<int>();
+  out.pump_faults = j.at("pump_faults").get<int>();
+  out.arm_faults = j.at("arm_faults").get<int>();
+  out.drive_faults = j.at("drive_faults").get<int>();
+  out.outcome = j.at("outcome").get<std::string>();
+  if (j.contains("estimate")) out.estimate = estimateFrom(j.at("estimate"));
+  return out;
+}
+
+WorldState worldFrom(const json& j) {
+  WorldState out;
+  out.clock_started = j.at("clock_started").get<bool>();
+  out.clock_start = stampFromNanoseconds(j.at("clock_start_ns").get<std::int64_t>());
+  out.resets = j.at("resets").get<int>();
+  for (const json& place : j.at("places")) out.places.push_back(placeFrom(place));
+  out.current_place = j.at("current_place").get<int>();
+  out.search_round = j.at("search_round").get<int>();
+  out.inside = j.at("inside").get<bool>();
+  const Eigen::Vector3d base = vectorFrom(j.at("X_map_base"));
+  out.X_map_base = {base.x(), base.y(), base.z()};
+  out.pose_stamp = stampFromNanoseconds(j.at("pose_stamp_ns").get<std::int64_t>());
+  out.sprayed_l_est = j.at("sprayed_l_est").get<double>();
+  out.tank_l_est = {j.at("tank_l_est").at(0).get<double>(), j.at("tank_l_est").at(1).get<double>()};
+  return out;
+}
+
+}  // namespace
+
+json worldToJson(const WorldState& world) {
+  json places = json::array();
+  for (const FirePlace& place : world.places) places.push_back(toJson(place));
+  return {{"clock_started", world.clock_started},
+          {"clock_start_ns", toNanoseconds(world.clock_start)},
+          {"resets", world.resets},
+          {"places", places},
+          {"current_place", world.current_place},
+          {"search_round", world.search_round},
+          {"inside", world.inside},
+          {"X_map_base", {world.X_map_base.x_m, world.X_map_base.y_m, world.X_map_base.yaw_rad}},
+          {"pose_stamp_ns", toNanoseconds(world.pose_stamp)},
+          {"sprayed_l_est", world.sprayed_l_est},
+          {"tank_l_est", {world.tank_l_est[0], world.tank_l_est[1]}}};
+}
+
+// JSON writes NaN as null, which is then of the wrong type: a non-finite number cannot come back.
+Result<WorldState> worldFromJson(const json& j) {
+  try {
+    return worldFrom(j);
+  } catch (const json::exception& e) {
+    return makeError(ErrorCode::InvalidInput,
+                     "the checkpoint's world is damaged: {}; start without --resume", e.what());
+  }
+}
+
+}  // namespace kiln

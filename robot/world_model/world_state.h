@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/geom/pose.h"
+#include "common/model/fire.h"
+
+namespace kiln {
+
+/// What is known of one configured fire place, and what was tried there.
+struct FirePlace {
+  std::string name;
+  Eigen::Vector3d p_plate_map = Eigen::Vector3d::Zero();  ///< configured plate centre, m
+  double facing_rad = 0.0;    ///< configured yaw of the opening's outward normal
+  bool visited = false;       ///< done with it in this round
+  bool extinguished = false;  ///< all its water was delivered (estimated)
+  std::optional<FireEstimate> estimate;
+  double litres_est = 0.0;  ///< sprayed here, pump model x time
+  int searches = 0;
+  int losses = 0;  ///< target lost while aiming
+  int pump_faults = 0;
+  int arm_faults = 0;
+  int drive_faults = 0;
+  std::string outcome;  ///< for report and operator
+};
+
+/// Everything that the mission knows and that survives a restart. `map`, metres, radians.
+struct WorldState {
+  bool clock_started = false;
+  Stamp clock_start;  ///< robot time at which the mission clock began
+  int resets = 0;
+  std::vector<FirePlace> places;
+  int current_place = -1;  ///< index into places; -1 = none selected
+  int search_round = 1;
+  bool inside = false;  ///< the entry path was driven to its end
+  Pose2 X_map_base;     ///< newest known pose
+  Stamp pose_stamp;
+  double sprayed_l_est = 0.0;
+  std::array<double, 2> tank_l_est{5.0, 5.0};
+
+  /// Seconds on the mission clock; 0 before its start. It runs on through pauses and resets.
+  [[nodiscard]] double elapsedS(Stamp now) const {
+    return clock_started ? toSeconds(now - clock_start) : 0.0;
+  }
+  [[nodiscard]] bool anyExtinguished() const;
+  /// Index of the first place not visited in this round, or -1.
+  [[nodiscard]] int nextPlace() const;
+};
+
+}  // namespace kiln
