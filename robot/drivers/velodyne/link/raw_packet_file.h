@@ -1,0 +1,11 @@
+#pragma once
+
+#include "robot/drivers/velodyne/link/packet_file.h"
+
+namespace kiln::velodyne {
+
+/// Data packets of 1206 bytes one after the other, without any header; their pace comes from their
+/// own time stamps. Error: see openPacketFile.
+[[nodiscard]] Result<std::unique_ptr<PacketFile>> openRawPacketFile(const std::string& path);
+
+}  // namespace kiln::velodyne
