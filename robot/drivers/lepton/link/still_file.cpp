@@ -1,0 +1,102 @@
+#include "robot/drivers/lepton/link/still_file.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include "robot/drivers/lepton/codec/tjsn.h"
+
+namespace kiln::lepton {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr std::uintmax_t kLargestFile = 64u << 20;
+
+std::string extensionOf(const fs::path& path) {
+  std::string out = path.extension().string();
+  std::transform(out.begin(), out.end(), out.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return out;
+}
+
+bool isPicture(const fs::path& path) {
+  const std::string e = extensionOf(path);
+  return e == ".png" || e == ".tif" || e == ".tiff";
+}
+
+Result<std::vector<char>> readAll(const std::string& path) {
+  std::error_code ec;
+  const auto size = fs::file_size(path, ec);
+  if (ec) return makeError(ErrorCode::NotFound, "{}: cannot be read ({})", path, ec.message());
+  if (size > kLargestFile)
+    return makeError(ErrorCode::InvalidInput, "{}: {} bytes are too many for a still", path, size);
+  std::ifstream in(path, std::ios::binary);
+  if (!in)
+    return makeError(ErrorCode::NotFound, "{}: cannot be opened; check its permissions", path);
+  return std::vector<char>(std::istreambuf_iterator<char>(in), {});
+}
+
+Result<LeptonFrame> readPicture(const std::string& path, const std::vector<char>& bytes) {
+  cv::Mat picture;
+  try {
+    if (!bytes.empty()) {
+      picture = cv::imdecode(
+          cv::Mat(1, static_cast<int>(bytes.size()), CV_8U, const_cast<char*>(bytes.data())),
+          cv::IMREAD_UNCHANGED);
+    }
+  } catch (const cv::Exception& e) {
+    return makeError(ErrorCode::InvalidInput, "{}: cannot be decoded ({})", path, e.err);
+  }
+  if (picture.empty())
+    return makeError(ErrorCode::InvalidInput, "{}: is not a readable picture (cut off?)", path);
+  if (picture.type() != CV_16UC1) {
+    return makeError(ErrorCode::InvalidInput,
+                     "{}: is not 16-bit greyscale; export the camera's Y16 words", path);
+  }
+  std::vector<std::uint16_t> words(picture.begin<std::uint16_t>(), picture.end<std::uint16_t>());
+  return splitFrame(picture.cols, picture.rows, std::move(words));
+}
+
+}  // namespace
+
+Result<LeptonFrame> readStill(const std::string& path) {
+  const auto bytes = readAll(path);
+  if (!bytes) return tl::make_unexpected(bytes.error());
+  if (isPicture(path)) return readPicture(path, *bytes);
+  auto frame = parseTjsn({bytes->data(), bytes->size()});
+  if (!frame) {
+    return tl::make_unexpected(
+        Error{frame.error().code,
+              fmt::format("{}: {}; take it out of the folder", path, frame.error().message)});
+  }
+  return frame;
+}
+
+Result<std::vector<std::string>> listStills(const std::string& folder) {
+  std::error_code ec;
+  if (!fs::is_directory(folder, ec)) {
+    return makeError(ErrorCode::NotFound,
+                     "{}: no such folder; give one with .tjsn, 16-bit .png or .tif stills", folder);
+  }
+  std::vector<std::string> out;
+  for (const auto& entry : fs::directory_iterator(folder, ec)) {
+    const fs::path& path = entry.path();
+    const bool tjsn = extensionOf(path) == ".tjsn";
+    if (!tjsn && !isPicture(path)) continue;
+    if (!tjsn && fs::exists(fs::path(path).replace_extension(".tjsn"), ec)) continue;
+    out.push_back(path.string());
+  }
+  if (ec) return makeError(ErrorCode::NotFound, "{}: cannot be listed ({})", folder, ec.message());
+  if (out.empty()) {
+    return makeError(ErrorCode::NotFound,
+                     "{}: holds no still; needs .tjsn, 16-bit .png or .tif files", folder);
+  }
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+}  // namespace kiln::lepton
