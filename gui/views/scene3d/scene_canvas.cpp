@@ -1,0 +1,131 @@
+#include "gui/views/scene3d/scene_canvas.h"
+
+#include <QMouseEvent>
+#include <QPainter>
+#include <QWheelEvent>
+#include <algorithm>
+
+#include "gui/views/scene3d/scene_labels.h"
+#include "gui/views/scene3d/top_view.h"
+
+namespace kiln::gui {
+
+SceneCanvas::SceneCanvas(const Ui& ui, const RobotShape& shape, Config config, bool open_gl,
+                         QWidget* parent)
+    : QWidget(parent), ui_(ui), shape_(shape), config_(config) {
+  setAttribute(Qt::WA_OpaquePaintEvent);
+  setFocusPolicy(Qt::ClickFocus);
+  pace_.setSingleShot(true);
+  connect(&pace_, &QTimer::timeout, this, &SceneCanvas::drawNow);
+  connect(&ui_.theme, &Theme::changed, this, &SceneCanvas::want);
+  if (open_gl) {
+    render_ = std::make_unique<RenderThread>(config_.renderer, shape_);
+    connect(render_.get(), &RenderThread::rendered, this, &SceneCanvas::accept);
+  } else {
+    camera_.setMode(OrbitCamera::Mode::Top);
+  }
+}
+
+Eigen::Vector3d SceneCanvas::robot() const {
+  return {snapshot_.X_map_base.x_m, snapshot_.X_map_base.y_m, 0.0};
+}
+
+void SceneCanvas::show(const SceneSnapshot& snapshot) {
+  snapshot_ = snapshot;
+  if (snapshot_.robot_known && !placed_) {
+    placed_ = true;
+    camera_.reset(robot());
+  }
+  if (snapshot_.robot_known) camera_.robotAt(robot());
+  want();
+}
+
+void SceneCanvas::setCameraMode(OrbitCamera::Mode mode) {
+  camera_.setMode(render_ ? mode : OrbitCamera::Mode::Top);
+  camera_.robotAt(robot());
+  want();
+  emit cameraModeChanged();
+}
+
+void SceneCanvas::want() {
+  wanted_ = true;
+  if (under_way_ || pace_.isActive()) return;
+  const auto period = static_cast<qint64>(1000.0 / config_.max_fps);
+  const qint64 wait = since_request_.isValid() ? period - since_request_.elapsed() : 0;
+  pace_.start(static_cast<int>(std::max<qint64>(0, wait)));
+}
+
+void SceneCanvas::drawNow() {
+  if (!wanted_ || !isVisible()) return;
+  wanted_ = false;
+  since_request_.start();
+  if (!render_) {
+    update();
+    return;
+  }
+  under_way_ = true;
+  render_->request({snapshot_, camera_, SceneColors::of(ui_.theme), size() * devicePixelRatioF()});
+}
+
+void SceneCanvas::accept(const SceneFrame& frame) {
+  under_way_ = false;
+  frame_ = frame;
+  frame_.image.setDevicePixelRatio(devicePixelRatioF());
+  update();
+  if (wanted_) want();
+}
+
+void SceneCanvas::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  const SceneColors colors = SceneColors::of(ui_.theme);
+  if (!render_) {
+    paintTopView(painter, snapshot_, camera_, colors, shape_, size());
+  } else if (frame_.image.isNull()) {
+    painter.fillRect(rect(), ui_.theme.colors().scene_ground);
+  } else {
+    painter.drawImage(rect(), frame_.image);
+  }
+  painter.setFont(ui_.theme.font(TextRole::Body));
+  paintSceneLabels(painter, snapshot_, render_ ? frame_.camera : camera_, colors, size());
+  emit drawn();
+}
+
+void SceneCanvas::resizeEvent(QResizeEvent*) { want(); }
+
+void SceneCanvas::mousePressEvent(QMouseEvent* event) { last_mouse_ = event->pos(); }
+
+void SceneCanvas::mouseMoveEvent(QMouseEvent* event) {
+  const QPoint d = event->pos() - last_mouse_;
+  last_mouse_ = event->pos();
+  if (event->buttons() & Qt::LeftButton)
+    camera_.orbit(d.x(), d.y(), height());
+  else
+    camera_.pan(d.x(), d.y(), height());
+  want();
+  emit cameraModeChanged();
+}
+
+void SceneCanvas::mouseDoubleClickEvent(QMouseEvent*) {
+  setCameraMode(OrbitCamera::Mode::Follow);
+  camera_.reset(robot());
+}
+
+void SceneCanvas::wheelEvent(QWheelEvent* event) {
+  camera_.zoom(event->angleDelta().y() / 120.0);
+  want();
+}
+
+void SceneCanvas::keyPressEvent(QKeyEvent* event) {
+  switch (event->key()) {
+    case Qt::Key_F:
+      return setCameraMode(OrbitCamera::Mode::Follow);
+    case Qt::Key_T:
+      return setCameraMode(OrbitCamera::Mode::Top);
+    case Qt::Key_G:
+      return setCameraMode(OrbitCamera::Mode::Free);
+    default:
+      QWidget::keyPressEvent(event);
+  }
+}
+
+}  // namespace kiln::gui

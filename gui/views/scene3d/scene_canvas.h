@@ -1,0 +1,66 @@
+#pragma once
+
+#include <QElapsedTimer>
+#include <QTimer>
+#include <QWidget>
+#include <memory>
+
+#include "gui/views/scene3d/render_thread.h"
+#include "gui/widgets/theme.h"
+
+namespace kiln::gui {
+
+/// Shows a scene snapshot: in 3D drawn by a render thread, or from above with QPainter where there
+/// is no OpenGL. Draws only on new content or a moved camera, at most `max_fps` times a second, one
+/// picture under way at a time. Mouse: left drag orbits, right or middle drag moves, wheel zooms,
+/// double click resets. Keys: F follow, T top, G free.
+class SceneCanvas : public QWidget {
+  Q_OBJECT
+ public:
+  struct Config {
+    SceneRenderer::Config renderer;
+    double max_fps = 15.0;
+  };
+  /// @param open_gl  openGlAvailable(), or false to force the top view.
+  SceneCanvas(const Ui& ui, const RobotShape& shape, Config config, bool open_gl,
+              QWidget* parent = nullptr);
+  void show(const SceneSnapshot& snapshot);
+  void setCameraMode(OrbitCamera::Mode mode);
+  [[nodiscard]] const OrbitCamera& camera() const { return camera_; }
+  [[nodiscard]] bool usesOpenGl() const { return render_ != nullptr; }
+  [[nodiscard]] double lastRenderMs() const { return frame_.render_ms; }
+  [[nodiscard]] QSize minimumSizeHint() const override { return {240, 160}; }
+
+ signals:
+  void cameraModeChanged();
+  void drawn();  ///< a new picture is on the screen
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseDoubleClickEvent(QMouseEvent* event) override;
+  void wheelEvent(QWheelEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
+
+ private:
+  void want();
+  void drawNow();
+  void accept(const SceneFrame& frame);
+  [[nodiscard]] Eigen::Vector3d robot() const;
+
+  Ui ui_;
+  RobotShape shape_;
+  Config config_;
+  std::unique_ptr<RenderThread> render_;  // null: top view
+  SceneSnapshot snapshot_;
+  OrbitCamera camera_;
+  SceneFrame frame_;
+  QTimer pace_;
+  QElapsedTimer since_request_;
+  bool under_way_ = false, wanted_ = false, placed_ = false;
+  QPoint last_mouse_;
+};
+
+}  // namespace kiln::gui

@@ -1,0 +1,74 @@
+#include "gui/views/scene3d/scene_colors.h"
+
+namespace kiln::gui {
+namespace {
+
+Rgb rgb(const QColor& c) {
+  return {static_cast<std::uint8_t>(c.red()), static_cast<std::uint8_t>(c.green()),
+          static_cast<std::uint8_t>(c.blue())};
+}
+
+SceneColors darkSolids() {
+  SceneColors c;
+  c.dark = true;
+  c.wall = rgbFromHex(0x6c757c);
+  c.wall_edge = rgbFromHex(0x565d63);
+  c.furniture = rgbFromHex(0x6f6a60);
+  c.body = rgbFromHex(0x6d7880);
+  c.body_edge = rgbFromHex(0xb4bdc4);
+  c.arm = rgbFromHex(0xd3d9dd);
+  c.joint = rgbFromHex(0x7f9db4);
+  c.wheel = rgbFromHex(0x3a3e42);
+  c.head = rgbFromHex(0x8d959b);
+  c.planned = rgbFromHex(0x5fa8c8);
+  c.waypoint = rgbFromHex(0x8cc4dc);
+  c.driven = {rgbFromHex(0xe4e8ea), rgbFromHex(0xb9a6d8), rgbFromHex(0x9ec7a0),
+              rgbFromHex(0xd8b48c)};
+  c.place = rgbFromHex(0x9aa3aa);
+  c.fire = rgbFromHex(0xe6a23c);
+  c.fire_uncertainty = rgbFromHex(0xf2c56b);
+  c.jet = rgbFromHex(0xcfe8ff);
+  c.jet_predicted = rgbFromHex(0x6f9fc4);
+  return c;
+}
+
+SceneColors lightSolids() {
+  SceneColors c;
+  c.dark = false;
+  c.wall = rgbFromHex(0xa3acb3);
+  c.wall_edge = rgbFromHex(0x9aa3aa);
+  c.furniture = rgbFromHex(0xb3aa9a);
+  c.body = rgbFromHex(0xaab4bb);
+  c.body_edge = rgbFromHex(0x4a5258);
+  c.arm = rgbFromHex(0x6b747b);
+  c.joint = rgbFromHex(0x4f7896);
+  c.wheel = rgbFromHex(0x3f4549);
+  c.head = rgbFromHex(0x7d868c);
+  c.planned = rgbFromHex(0x1f6f95);
+  c.waypoint = rgbFromHex(0x1f6f95);
+  c.driven = {rgbFromHex(0x30363b), rgbFromHex(0x6b4fa0), rgbFromHex(0x2f7a3a),
+              rgbFromHex(0x9a5b1c)};
+  c.place = rgbFromHex(0x6a737a);
+  c.fire = rgbFromHex(0xb86a00);
+  c.fire_uncertainty = rgbFromHex(0xd08a1c);
+  c.jet = rgbFromHex(0x2a78c0);
+  c.jet_predicted = rgbFromHex(0x6f9fc4);
+  return c;
+}
+
+}  // namespace
+
+SceneColors SceneColors::of(const Theme& theme) {
+  SceneColors c = theme.kind() == ThemeKind::Dark ? darkSolids() : lightSolids();
+  const Palette& p = theme.colors();
+  c.ground = rgb(p.scene_ground);
+  c.grid = rgb(p.scene_line);
+  c.caution = rgb(p.caution);
+  c.text = rgb(p.text);
+  c.text_dim = rgb(p.dim);
+  c.panel = rgb(p.panel);
+  c.panel_edge = rgb(p.border);
+  return c;
+}
+
+}  // namespace kiln::gui

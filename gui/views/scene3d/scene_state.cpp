@@ -1,0 +1,145 @@
+#include "gui/views/scene3d/scene_state.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/geom/frames.h"
+
+namespace kiln::gui {
+namespace {
+
+bool finite(const Pose2& X) {
+  return std::isfinite(X.x_m) && std::isfinite(X.y_m) && std::isfinite(X.yaw_rad);
+}
+
+bool sameBoxes(const std::vector<SceneBox>& a, const std::vector<SceneBox>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const SceneBox& p, const SceneBox& q) {
+                      return p.name == q.name && p.rgb == q.rgb && p.half_extent == q.half_extent &&
+                             p.X_map_box.matrix() == q.X_map_box.matrix();
+                    });
+}
+
+}  // namespace
+
+const char* toString(SceneLayer layer) {
+  switch (layer) {
+    case SceneLayer::Robot:
+      return "Robot";
+    case SceneLayer::Lidar:
+      return "LiDAR";
+    case SceneLayer::Map:
+      return "Map";
+    case SceneLayer::Planned:
+      return "Planned path";
+    case SceneLayer::Driven:
+      return "Driven path";
+    case SceneLayer::Places:
+      return "Fire places";
+    case SceneLayer::Fire:
+      return "Fire estimate";
+    case SceneLayer::Jet:
+      return "Jet";
+  }
+  return "?";
+}
+
+void SceneState::touch(SceneLayer l) { ++layer(l).revision; }
+
+void SceneState::setStatus(const RobotStatus& status) {
+  if (!finite(status.X_map_base) || !status.arm.q.allFinite()) return;
+  snapshot_.robot_known = true;
+  snapshot_.X_map_base = status.X_map_base;
+  snapshot_.q = status.arm.q;
+  snapshot_.steer = status.wheel_steer_rad;
+  poses_.push_back({status.stamp, status.X_map_base, status.arm.q});
+  while (poses_.size() > config_.pose_history) poses_.pop_front();
+  touch(SceneLayer::Robot);
+  extendTrail(status);
+}
+
+void SceneState::extendTrail(const RobotStatus& status) {
+  auto& lines = snapshot_.driven;
+  if (lines.empty() || status.resets != resets_) lines.emplace_back();
+  resets_ = status.resets;
+  const Eigen::Vector2d p(status.X_map_base.x_m, status.X_map_base.y_m);
+  if (!lines.back().empty() && (p - lines.back().back()).norm() < config_.trail_step_m) return;
+  lines.back().push_back(p);
+  trimTrail();
+  touch(SceneLayer::Driven);
+}
+
+void SceneState::trimTrail() {
+  auto& lines = snapshot_.driven;
+  std::size_t total = 0;
+  for (const auto& line : lines) total += line.size();
+  if (total <= config_.trail_points) return;
+  auto& oldest = lines.front();
+  oldest.erase(oldest.begin(), oldest.begin() + static_cast<std::ptrdiff_t>(std::min(
+                                                    oldest.size(), total - config_.trail_points)));
+  if (oldest.empty() && lines.size() > 1) lines.erase(lines.begin());
+}
+
+const SceneState::PoseAt* SceneState::poseNear(Stamp stamp) const {
+  const auto nearer = [stamp](const PoseAt& a, const PoseAt& b) {
+    return std::chrono::abs(a.stamp - stamp) < std::chrono::abs(b.stamp - stamp);
+  };
+  const auto best = std::min_element(poses_.begin(), poses_.end(), nearer);
+  return best == poses_.end() ? nullptr : &*best;
+}
+
+void SceneState::setCloud(PointCloudPtr cloud) {
+  if (!cloud) return;
+  const PoseAt* at = poseNear(cloud->stamp);
+  Eigen::Isometry3d X_map_cloud = Eigen::Isometry3d::Identity();
+  if (cloud->frame == frames::kBase || cloud->frame == frames::kLidar) {
+    // Without a robot pose the scan is still worth seeing, round the origin (sensor files have no
+    // robot).
+    if (at) X_map_cloud = toIsometry(at->X_map_base);
+    if (cloud->frame == frames::kLidar) {
+      const Vector6d q = at ? at->q : RobotGeometry::radians(geometry_.q_drive_deg);
+      X_map_cloud = X_map_cloud * geometry_.X_base_flange(q) * geometry_.X_flange_lidar.pose();
+    }
+  } else if (cloud->frame != frames::kMap) {
+    cloud_refusal_ = "LiDAR not drawn: its frame '" + cloud->frame + "' is not map, base or lidar";
+    return;
+  }
+  cloud_refusal_.clear();
+  snapshot_.X_map_cloud = X_map_cloud;
+  snapshot_.cloud = std::move(cloud);
+  touch(SceneLayer::Lidar);
+}
+
+void SceneState::setScene(const Scene& scene) {
+  if (!sameBoxes(snapshot_.arena, scene.arena)) {
+    snapshot_.arena = scene.arena;
+    touch(SceneLayer::Map);
+  }
+  snapshot_.planned = scene.planned;
+  snapshot_.places = scene.places;
+  snapshot_.fires = scene.fires;
+  snapshot_.jet = scene.jet;
+  for (const SceneLayer l :
+       {SceneLayer::Planned, SceneLayer::Places, SceneLayer::Fire, SceneLayer::Jet})
+    touch(l);
+}
+
+void SceneState::setAge(SceneLayer l, double age_s) {
+  LayerState& state = layer(l);
+  state.age_s = age_s;
+  const Freshness now = age_s < 0.0               ? Freshness::Missing
+                        : age_s < config_.aging_s ? Freshness::Fresh
+                        : age_s < config_.stale_s ? Freshness::Aging
+                                                  : Freshness::Stale;
+  if (now == state.freshness) return;
+  state.freshness = now;
+  touch(l);
+}
+
+void SceneState::setVisible(SceneLayer l, bool visible) {
+  if (layer(l).visible == visible) return;
+  layer(l).visible = visible;
+  touch(l);
+}
+
+}  // namespace kiln::gui

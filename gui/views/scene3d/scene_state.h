@@ -1,0 +1,94 @@
+#pragma once
+
+#include <array>
+#include <deque>
+#include <string>
+#include <vector>
+
+#include "common/model/scene.h"
+#include "common/model/status.h"
+#include "common/robot_model/robot_geometry.h"
+
+namespace kiln::gui {
+
+enum class SceneLayer { Robot, Lidar, Map, Planned, Driven, Places, Fire, Jet };
+inline constexpr std::size_t kSceneLayers = 8;
+[[nodiscard]] const char* toString(SceneLayer layer);  ///< what the operator reads
+
+/// Missing: never came. Aging and Stale: too old by the limits of console.md section 4.4.
+enum class Freshness { Missing, Fresh, Aging, Stale };
+
+struct LayerState {
+  bool visible = true;
+  double age_s = -1.0;  ///< < 0: no data yet
+  Freshness freshness = Freshness::Missing;
+  std::uint64_t revision = 0;  ///< counts changes of the layer's content
+};
+
+/// Everything that is drawn, as plain values; cheap to copy (clouds are shared). Frame: map.
+struct SceneSnapshot {
+  bool robot_known = false;
+  Pose2 X_map_base;
+  Vector6d q = Vector6d::Zero();
+  std::array<double, 4> steer{};
+  PointCloudPtr cloud;
+  Eigen::Isometry3d X_map_cloud = Eigen::Isometry3d::Identity();
+  std::vector<SceneBox> arena;
+  PathInfo planned;
+  std::vector<std::vector<Eigen::Vector2d>> driven;  ///< one line for each life between resets
+  std::vector<FirePlaceInfo> places;
+  std::vector<FireEstimate> fires;
+  JetPreview jet;
+  std::array<LayerState, kSceneLayers> layers{};
+  [[nodiscard]] const LayerState& layer(SceneLayer l) const {
+    return layers[static_cast<std::size_t>(l)];
+  }
+};
+
+/// Gathers what the models deliver into one picture of the world, remembers the driven path and
+/// grows old by layers. Without Qt and without a renderer; confined to the GUI thread.
+class SceneState {
+ public:
+  struct Config {
+    double aging_s = 1.5;             ///< desaturated from here
+    double stale_s = 3.0;             ///< outlined and labelled with its age from here
+    double trail_step_m = 0.05;       ///< distance between points of the driven path
+    std::size_t trail_points = 6000;  ///< whole path; the oldest points go first
+    std::size_t pose_history = 40;    ///< status messages kept to place a cloud at its own time
+  };
+  SceneState(Config config, RobotGeometry geometry)
+      : config_(config), geometry_(std::move(geometry)) {}
+
+  void setStatus(const RobotStatus& status);
+  /// Placed by the pose nearest in time to the cloud's stamp. Clouds in map, base or lidar are
+  /// understood; another frame is refused with a sentence in cloudRefusal().
+  void setCloud(PointCloudPtr cloud);
+  void setScene(const Scene& scene);
+  /// @param age_s  since the data arrived; < 0: never.
+  void setAge(SceneLayer layer, double age_s);
+  void setVisible(SceneLayer layer, bool visible);
+  [[nodiscard]] const std::string& cloudRefusal() const { return cloud_refusal_; }
+  [[nodiscard]] const SceneSnapshot& snapshot() const { return snapshot_; }
+  [[nodiscard]] const RobotGeometry& geometry() const { return geometry_; }
+
+ private:
+  struct PoseAt {
+    Stamp stamp;
+    Pose2 X_map_base;
+    Vector6d q = Vector6d::Zero();
+  };
+  LayerState& layer(SceneLayer l) { return snapshot_.layers[static_cast<std::size_t>(l)]; }
+  void touch(SceneLayer l);
+  void extendTrail(const RobotStatus& status);
+  void trimTrail();
+  [[nodiscard]] const PoseAt* poseNear(Stamp stamp) const;
+
+  Config config_;
+  RobotGeometry geometry_;
+  SceneSnapshot snapshot_;
+  std::deque<PoseAt> poses_;
+  std::string cloud_refusal_;
+  int resets_ = 0;
+};
+
+}  // namespace kiln::gui

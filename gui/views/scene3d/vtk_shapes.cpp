@@ -1,0 +1,150 @@
+#include "gui/views/scene3d/vtk_shapes.h"
+
+#include <array>
+#include <cmath>
+
+#include <vtkActor.h>
+#include <vtkCellArray.h>
+#include <vtkMatrix4x4.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
+
+namespace kiln::gui {
+namespace {
+
+constexpr int kSegments = 20;  // round enough at the size of a wheel on the screen
+
+/// A surface of revolution round Z from a profile of (radius, z), top to bottom.
+vtkSmartPointer<vtkPolyData> revolve(const std::vector<Eigen::Vector2d>& profile) {
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> faces;
+  const auto rings = static_cast<vtkIdType>(profile.size());
+  for (const Eigen::Vector2d& p : profile) {
+    for (int i = 0; i < kSegments; ++i) {
+      const double angle = 2.0 * M_PI * i / kSegments;
+      points->InsertNextPoint(p.x() * std::cos(angle), p.x() * std::sin(angle), p.y());
+    }
+  }
+  for (vtkIdType ring = 0; ring + 1 < rings; ++ring) {
+    for (vtkIdType i = 0; i < kSegments; ++i) {
+      const vtkIdType next = (i + 1) % kSegments, a = ring * kSegments, b = a + kSegments;
+      const std::array<vtkIdType, 4> quad{a + i, b + i, b + next, a + next};
+      faces->InsertNextCell(4, quad.data());
+    }
+  }
+  auto mesh = vtkSmartPointer<vtkPolyData>::New();
+  mesh->SetPoints(points);
+  mesh->SetPolys(faces);
+  return mesh;
+}
+
+std::vector<Eigen::Vector2d> halfCircle(double radius, double z, double from, double to) {
+  constexpr int kSteps = 6;
+  std::vector<Eigen::Vector2d> out;
+  for (int i = 0; i <= kSteps; ++i) {
+    const double angle = from + (to - from) * i / kSteps;
+    out.emplace_back(radius * std::cos(angle), z + radius * std::sin(angle));
+  }
+  return out;
+}
+
+std::array<Eigen::Vector3d, 8> corners(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
+  std::array<Eigen::Vector3d, 8> out;
+  for (std::size_t i = 0; i < 8; ++i)
+    out[i] = {(i & 1) ? high.x() : low.x(), (i & 2) ? high.y() : low.y(),
+              (i & 4) ? high.z() : low.z()};
+  return out;
+}
+
+}  // namespace
+
+vtkSmartPointer<vtkPolyData> boxMesh(const Eigen::Vector3d& size) {
+  vtkNew<vtkPoints> points;
+  for (const Eigen::Vector3d& p : corners(-0.5 * size, 0.5 * size))
+    points->InsertNextPoint(p.data());
+  constexpr vtkIdType kFaces[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                                      {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+  vtkNew<vtkCellArray> faces;
+  for (const auto& face : kFaces) faces->InsertNextCell(4, face);
+  auto mesh = vtkSmartPointer<vtkPolyData>::New();
+  mesh->SetPoints(points);
+  mesh->SetPolys(faces);
+  return mesh;
+}
+
+vtkSmartPointer<vtkPolyData> cylinderMesh(double radius, double length) {
+  const double h = 0.5 * length;
+  return revolve({{1e-6, h}, {radius, h}, {radius, -h}, {1e-6, -h}});
+}
+
+vtkSmartPointer<vtkPolyData> capsuleMesh(double radius, double length) {
+  const double h = 0.5 * length;
+  auto profile = halfCircle(radius, h, M_PI / 2 - 1e-3, 0.0);
+  const auto bottom = halfCircle(radius, -h, 0.0, -M_PI / 2 + 1e-3);
+  profile.insert(profile.end(), bottom.begin(), bottom.end());
+  return revolve(profile);
+}
+
+vtkSmartPointer<vtkPolyData> sphereMesh(double radius) {
+  return revolve(halfCircle(radius, 0.0, M_PI / 2 - 1e-3, -M_PI / 2 + 1e-3));
+}
+
+vtkSmartPointer<vtkPolyData> boxEdges(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
+  const auto c = corners(low, high);
+  std::vector<std::vector<Eigen::Vector3d>> edges;
+  for (std::size_t i = 0; i < 8; ++i)
+    for (const std::size_t bit : {1U, 2U, 4U})
+      if ((i & bit) == 0) edges.push_back({c[i], c[i | bit]});
+  return lineMesh(edges);
+}
+
+vtkSmartPointer<vtkPolyData> lineMesh(const std::vector<std::vector<Eigen::Vector3d>>& lines) {
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> cells;
+  for (const auto& line : lines) {
+    if (line.size() < 2) continue;
+    cells->InsertNextCell(static_cast<int>(line.size()));
+    for (const Eigen::Vector3d& p : line) cells->InsertCellPoint(points->InsertNextPoint(p.data()));
+  }
+  auto mesh = vtkSmartPointer<vtkPolyData>::New();
+  mesh->SetPoints(points);
+  mesh->SetLines(cells);
+  return mesh;
+}
+
+vtkSmartPointer<vtkActor> addActor(vtkRenderer& renderer, vtkPolyData* mesh) {
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(mesh);
+  auto actor = vtkSmartPointer<vtkActor>::New();
+  actor->SetMapper(mapper);
+  renderer.AddActor(actor);
+  return actor;
+}
+
+void setMesh(vtkActor& actor, vtkPolyData* mesh) {
+  vtkPolyDataMapper::SafeDownCast(actor.GetMapper())->SetInputData(mesh);
+}
+
+void setPose(vtkActor& actor, const Eigen::Isometry3d& X) {
+  vtkNew<vtkMatrix4x4> matrix;
+  for (int row = 0; row < 4; ++row)
+    for (int column = 0; column < 4; ++column)
+      matrix->SetElement(row, column, X.matrix()(row, column));
+  actor.SetUserMatrix(matrix);
+}
+
+void setColor(vtkActor& actor, Rgb color) {
+  actor.GetProperty()->SetColor(color.r / 255.0, color.g / 255.0, color.b / 255.0);
+}
+
+void makeFlat(vtkActor& actor, float width) {
+  actor.GetProperty()->LightingOff();
+  actor.GetProperty()->SetLineWidth(width);
+}
+
+}  // namespace kiln::gui
