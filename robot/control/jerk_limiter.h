@@ -13,13 +13,15 @@ struct MotionLimits {
 };
 
 /// Largest acceleration towards a speed that is `error` > 0 away such that, falling by jerk * dt a
-/// step, it ends at zero without passing the target. Exact for a sampled system: a dt + a^2 / (2 j)
-/// - a dt / 2 = error.
+/// step, it ends at zero without passing the target. For a sampled ramp a dt + a^2 / (2 j) - a dt /
+/// 2 = error, and a last step that is not a whole one needs up to j dt^2 / 8 more.
 [[nodiscard]] inline double approachAcceleration(double error, const MotionLimits& limits,
                                                  double dt) {
+  const double whole_step = limits.jerk * dt * dt;
+  if (error <= whole_step) return std::min(error / dt, limits.accel);
   const double h = 0.5 * limits.jerk * dt;
-  const double curve = -h + std::sqrt(h * h + 2.0 * limits.jerk * error);
-  return std::min({curve, error / dt, limits.accel});
+  const double curve = -h + std::sqrt(h * h + 2.0 * limits.jerk * (error - 0.125 * whole_step));
+  return std::min(curve, limits.accel);
 }
 
 /// Brings a velocity vector to a target along a straight line in velocity space, with the norm of
