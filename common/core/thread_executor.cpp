@@ -21,7 +21,7 @@ ThreadExecutor::~ThreadExecutor() { stop(); }
 bool ThreadExecutor::post(Job job) {
   {
     const std::lock_guard lock(mutex_);
-    if (!waiting_kinds_.insert(job.kind).second) {
+    if (!kinds_in_flight_.insert(job.kind).second) {
       ++dropped_jobs_;
       return false;
     }
@@ -87,10 +87,10 @@ void ThreadExecutor::runPool(std::stop_token stop) {
   while (wake_.wait(lock, stop, [this] { return !jobs_.empty(); })) {
     Job job = std::move(jobs_.front());
     jobs_.pop_front();
-    waiting_kinds_.erase(job.kind);
     lock.unlock();
     if (Delivery deliver = job.run(stop)) deliver();
     lock.lock();
+    kinds_in_flight_.erase(job.kind);
   }
 }
 

@@ -43,7 +43,7 @@ class ThreadExecutor final : public Executor {
   mutable std::mutex mutex_;
   std::condition_variable_any wake_;
   std::deque<Job> jobs_;
-  std::set<std::string> waiting_kinds_;
+  std::set<std::string> kinds_in_flight_;
   std::uint64_t dropped_jobs_ = 0;
   std::vector<std::unique_ptr<Periodic>> periodics_;
   std::vector<std::jthread> threads_;

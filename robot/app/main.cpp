@@ -1,0 +1,187 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+
+#include "common/config/resources.h"
+#include "common/core/atomic_file.h"
+#include "common/core/check.h"
+#include "common/core/log.h"
+#include "robot/app/absent_devices.h"
+#include "robot/app/instance_lock.h"
+#include "robot/app/recorded_sensors.h"
+#include "robot/app/robot.h"
+#include "robot/app/run_loop.h"
+#include "robot/fsm/uuid.h"
+#include "robot/sim_link/sim_link.h"
+
+namespace {
+
+using namespace kiln;
+
+constexpr int kSuccess = 0, kMissionFailed = 1, kBadInput = 2;
+
+struct Arguments {
+  RobotOptions robot;
+  std::string config;
+  std::string sim, lidar, thermal;
+  std::string listen = "tcp://127.0.0.1:7300";
+  std::string report;
+  bool exit_when_done = false;
+  int log_level = 2;
+};
+
+int fail(const Error& error) {
+  fmt::print(stderr, "kiln-robotd: {}\n", error.message);
+  return kBadInput;
+}
+
+void addOptions(CLI::App& app, Arguments& a) {
+  app.add_option("--sim", a.sim, "endpoint of kiln-sim, e.g. ipc:///tmp/kiln-sim");
+  app.add_option("--lidar", a.lidar, "show a recorded VLP-16 capture: pcap, or raw 1206-byte packets");
+  app.add_option("--thermal", a.thermal, "show recorded Lepton stills from a folder, at 8.77 Hz");
+  app.add_option("--mission", a.robot.mission, "mission")->default_val("fire")->check(CLI::IsMember({"fire"}));
+  app.add_flag("--start", a.robot.start, "start the mission as soon as all checks pass");
+  app.add_flag("--resume", a.robot.resume, "go on from the checkpoint in the state folder");
+  app.add_flag("--lockstep", a.robot.lockstep, "step together with kiln-sim --lockstep, as fast as possible");
+  app.add_flag("--exit-when-done", a.exit_when_done, "end when the mission has ended; exit status 0 on success");
+  app.add_option("--report", a.report, "write the mission report (JSON) at the end");
+  app.add_option("--state-dir", a.robot.state_dir, "checkpoint, pose and lock; default: $XDG_STATE_HOME/kiln or ~/.local/state/kiln");
+  app.add_option("--listen", a.listen, "where stations connect: tcp://127.0.0.1:PORT or ipc:///DIR/PREFIX")->capture_default_str();
+  app.add_option("--config", a.config, "robot config (default: resources/config/robot.yaml)");
+  app.add_option("--log-level", a.log_level, "0 trace .. 4 error")->check(CLI::Range(0, 5));
+}
+
+std::string defaultStateFolder() {
+  if (const char* state = std::getenv("XDG_STATE_HOME")) return std::string(state) + "/kiln";
+  if (const char* home = std::getenv("HOME")) return std::string(home) + "/.local/state/kiln";
+  return (std::filesystem::temp_directory_path() / "kiln-state").string();
+}
+
+Result<RobotSettings> loadSettings(const std::string& path) {
+  RobotSettings settings;
+  std::string file = path;
+  if (file.empty()) {
+    auto found = resourcePath("config/robot.yaml");
+    if (!found) return tl::make_unexpected(found.error());
+    file = *found;
+  }
+  if (auto loaded = loadConfig(file, settings); !loaded) return tl::make_unexpected(loaded.error());
+  return settings;
+}
+
+/// The world or recorded files: where this robot's devices come from, and the clock and executor that fit.
+struct Runtime {
+  SteadyClock steady_clock;
+  ManualClock manual_clock;
+  std::unique_ptr<ManualExecutor> manual;
+  std::unique_ptr<ThreadExecutor> threads;
+  std::unique_ptr<SimLink> sim;
+  AbsentDevices absent;
+  RecordedSensors recorded;
+
+  [[nodiscard]] const Clock& clock() const {
+    return manual ? static_cast<const Clock&>(manual_clock) : static_cast<const Clock&>(steady_clock);
+  }
+  [[nodiscard]] Executor& executor() {
+    return manual ? static_cast<Executor&>(*manual) : static_cast<Executor&>(*threads);
+  }
+  Result<void> open(const Arguments& a);
+  [[nodiscard]] Devices devices();
+};
+
+Result<void> Runtime::open(const Arguments& a) {
+  if (a.robot.lockstep) {
+    manual = std::make_unique<ManualExecutor>(manual_clock);
+  } else {
+    threads = std::make_unique<ThreadExecutor>(steady_clock, 2);
+  }
+  if (!a.sim.empty()) {
+    SimLink::Config config;
+    config.endpoint = a.sim;
+    config.lockstep = a.robot.lockstep;
+    config.version = KILN_VERSION;
+    auto connected = SimLink::connect(config, clock());
+    if (!connected) return tl::make_unexpected(connected.error());
+    sim = std::move(*connected);
+    if (manual) manual_clock.advanceTo(sim->world().now);
+  }
+  return recorded.open(a.lidar, a.thermal, executor(), clock());
+}
+
+Devices Runtime::devices() {
+  if (!sim) {
+    Devices none{absent.arm, absent.base, absent.pumps, absent.arena};
+    none.lidar = recorded.lidar();
+    none.thermal = recorded.thermal();
+    return none;
+  }
+  Devices all{sim->arm(), sim->base(), sim->pumps(), sim->arena()};
+  all.lidar = recorded.lidar() != nullptr ? recorded.lidar() : &sim->lidar();
+  all.thermal = recorded.thermal() != nullptr ? recorded.thermal() : &sim->thermalCamera();
+  all.operator_camera = &sim->operatorCamera();
+  all.connected = [link = sim.get()] { return link->connected(); };
+  all.resets = [link = sim.get()] { return link->resets(); };
+  return all;
+}
+
+Result<std::unique_ptr<OperatorLink>> openLink(const Arguments& a, const RobotSettings& settings, const Clock& clock,
+                                               StopLatch& stop) {
+  OperatorLink::Config config;
+  config.endpoint = a.listen;
+  config.robot_name = settings.name;
+  return OperatorLink::open(config, {KILN_VERSION, a.robot.environment, a.robot.mission_uuid}, clock, stop);
+}
+
+int run(Arguments a) {
+  if (a.sim.empty() && a.lidar.empty() && a.thermal.empty()) {
+    return fail({ErrorCode::InvalidInput,
+                 "nothing to run on: give --sim ENDPOINT (a running kiln-sim), or --lidar FILE and --thermal FOLDER"});
+  }
+  if (a.robot.lockstep && a.sim.empty()) return fail({ErrorCode::InvalidInput, "--lockstep needs --sim ENDPOINT"});
+  auto settings = loadSettings(a.config);
+  if (!settings) return fail(settings.error());
+  if (a.robot.state_dir.empty()) a.robot.state_dir = defaultStateFolder();
+  auto lock = InstanceLock::acquire(a.robot.state_dir);
+  if (!lock) return fail(lock.error());
+
+  Runtime runtime;
+  if (auto opened = runtime.open(a); !opened) return fail(opened.error());
+  a.robot.version = KILN_VERSION;
+  a.robot.environment = runtime.sim ? Environment::Sim : Environment::Replay;
+  StopLatch stop;
+  // A lockstep run must give the same report each time, so its mission is named by its world.
+  a.robot.mission_uuid = a.robot.lockstep ? fmt::format("lockstep-{}", runtime.sim->world().seed) : randomUuid();
+  auto link = openLink(a, *settings, runtime.clock(), stop);
+  if (!link) return fail(link.error());
+  auto robot = Robot::create(*settings, a.robot, runtime.devices(), runtime.clock(), runtime.executor(), link->get(), stop);
+  if (!robot) return fail(robot.error());
+
+  const auto done = [&] { return a.exit_when_done && (*robot)->missionEnded(); };
+  if (runtime.manual) {
+    if (auto ran = runLockstep(*runtime.sim, runtime.manual_clock, *runtime.manual, std::chrono::milliseconds(8), done); !ran) {
+      return fail(ran.error());
+    }
+  } else {
+    runtime.threads->start();
+    runRealTime(done);
+    runtime.threads->stop();
+  }
+  if (!a.report.empty()) {
+    if (auto written = writeFileAtomically(a.report, (*robot)->reportJson(runtime.clock().now())); !written) return fail(written.error());
+  }
+  if (g_termination_signal != 0) return 128 + g_termination_signal;
+  return !a.exit_when_done || (*robot)->missionSucceeded() ? kSuccess : kMissionFailed;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Arguments arguments;
+  CLI::App app{"kiln-robotd: autonomy, control and safety of one robot"};
+  app.set_version_flag("--version", std::string("kiln-robotd ") + KILN_VERSION);
+  addOptions(app, arguments);
+  CLI11_PARSE(app, argc, argv);
+  setLogLevel(arguments.log_level);
+  installSignalHandlers();
+  return run(arguments);
+}

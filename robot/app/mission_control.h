@@ -1,0 +1,65 @@
+#pragma once
+
+#include <string>
+
+#include "common/model/status.h"
+#include "robot/app/alarm_book.h"
+#include "robot/app/teleop.h"
+#include "robot/fsm/machine.h"
+#include "robot/safety/authority.h"
+#include "robot/skills/macro_runner.h"
+#include "robot/world_model/world_model.h"
+
+namespace kiln {
+
+/// Which mode the robot is in and how it gets from one to another: the table of architecture.md section 6. Executes
+/// the commands that the authority has let through. Confined to the mission thread.
+class MissionControl {
+ public:
+  struct Parts {
+    Machine& machine;
+    WorldModel& world;
+    Teleop& teleop;
+    MacroRunner& macros;
+    AlarmBook& alarms;
+    StopLatch& stop;
+    Arm& arm;
+    Arena& arena;
+  };
+  explicit MissionControl(Parts parts) : parts_(parts) {}
+
+  /// Starts the mission in autonomous mode. @pre the preflight checks hold.
+  void startMission(Stamp now);
+  /// After --resume: the machine was restored; goes on by itself when `run`.
+  void resumeMission(Stamp now);
+  /// Executes one accepted command. @return its answer; nullopt for setpoints and for a macro that answers later.
+  [[nodiscard]] std::optional<CommandAck> execute(const Authority::Accepted& accepted, Stamp now);
+  /// What ended since the last tick: released holds, a lost lease, a STOP that has latched.
+  void onReleased(const std::vector<HoldKind>& kinds, Stamp now);
+  void onLeaseLost(Stamp now);
+  void watchStop(Stamp now);
+  /// The world says that the robot was carried back to its start.
+  void onReset(Stamp now);
+  /// Steps what runs in this mode: machine or macro.
+  void step(Stamp now, bool macro_held);
+
+  [[nodiscard]] Mode mode() const { return parts_.stop.latched() ? Mode::Stopped : mode_; }
+  [[nodiscard]] StatusWord word(Stamp now, bool checks_ok) const;
+  [[nodiscard]] std::string reason() const;
+  [[nodiscard]] bool running(Stamp now) const { return parts_.machine.status(now).running; }
+
+ private:
+  CommandAck executeDiscrete(const Command& command, Stamp now);
+  void executeSetpoint(const Authority::Accepted& accepted);
+  CommandAck changeState(const Command& command, const ChangeState& change, Stamp now);
+  CommandAck setMode(const Command& command, Mode mode, Stamp now);
+  void hold(Stamp now);
+
+  Parts parts_;
+  Mode mode_ = Mode::None;
+  Mode before_teleop_ = Mode::None;
+  std::string pause_reason_;
+  bool stop_seen_ = false;
+};
+
+}  // namespace kiln

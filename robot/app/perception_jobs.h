@@ -1,0 +1,73 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "common/core/bounded_queue.h"
+#include "common/core/executor.h"
+#include "common/core/latest_value.h"
+#include "common/model/fire.h"
+#include "common/model/sensor.h"
+#include "robot/app/state_history.h"
+#include "robot/localization/box_map_aligner.h"
+#include "robot/localization/pose_tracker.h"
+#include "robot/perception/cloud/self_filter.h"
+#include "robot/perception/thermal/heat_detector.h"
+
+namespace kiln {
+
+/// Carries sensor frames to the perception functions and their results back: sinks run on device threads and only
+/// fill mailboxes, dispatch() and the take functions belong to the mission thread, the work runs on the pool.
+class PerceptionJobs {
+ public:
+  struct Config {
+    double scan_latency_s = 0.012;        ///< modelled in lockstep; median of its benchmark
+    double moving_fix_period_s = 0.2;     ///< align at most so often while the base moves
+    double resting_fix_period_s = 1.0;    ///< and at rest
+    void visit(ConfigArchive& a);
+  };
+  struct ScanResult {
+    PointCloudPtr cloud;                  ///< motion-compensated, without the robot itself; frame base (or lidar)
+    AlignmentPrior prior;
+    std::optional<Result<Alignment>> fix; ///< nullopt: not tried this time
+  };
+  struct HeatResult {
+    ThermalImagePtr image;
+    HeatDetections detections;
+  };
+  PerceptionJobs(Config config, Executor& executor, const RobotGeometry& robot, const StateHistory& history,
+                 const SelfFilter& self_filter, const BoxMapAligner& aligner, HeatDetector& detector,
+                 double heat_latency_s);
+
+  void onScan(PointCloudPtr scan);        ///< any thread
+  void onThermal(ThermalImagePtr image);  ///< any thread
+  /// Posts jobs for what has arrived. `tracker` gives the prior; `moving` chooses how often to align.
+  void dispatch(Stamp now, const PoseTracker& tracker, bool moving);
+  [[nodiscard]] std::vector<ScanResult> takeScans() { return scan_results_.drain(); }
+  [[nodiscard]] std::vector<HeatResult> takeHeat() { return heat_results_.drain(); }
+  [[nodiscard]] std::optional<Stamp> lastScan() const { return last_scan_; }
+  [[nodiscard]] std::optional<Stamp> lastThermal() const { return last_thermal_; }
+  [[nodiscard]] std::uint64_t droppedFrames() const;
+
+ private:
+  void dispatchScan(Stamp now, const PoseTracker& tracker, bool moving);
+  void dispatchThermal();
+  [[nodiscard]] ScanResult processScan(const PointCloud& scan, const std::optional<AlignmentPrior>& prior, bool align) const;
+
+  Config config_;
+  Executor& executor_;
+  const RobotGeometry& robot_;
+  const StateHistory& history_;
+  const SelfFilter& self_filter_;
+  const BoxMapAligner& aligner_;
+  HeatDetector& detector_;
+  Duration heat_latency_;
+  LatestValue<PointCloudPtr> scans_;
+  BoundedQueue<ThermalImagePtr> images_{4, DropPolicy::Oldest};
+  BoundedQueue<ScanResult> scan_results_{4, DropPolicy::Oldest};
+  BoundedQueue<HeatResult> heat_results_{8, DropPolicy::Oldest};
+  std::optional<Stamp> last_scan_, last_thermal_, last_fix_try_;
+};
+
+}  // namespace kiln

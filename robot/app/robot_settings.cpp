@@ -1,0 +1,29 @@
+#include "robot/app/robot_settings.h"
+
+namespace kiln {
+
+void RobotSettings::visit(ConfigArchive& a) {
+  a.field("name", name, "shown to operators");
+  a.field("geometry", geometry, "resource file of the robot's geometry");
+  a.field("arena", arena, "resource file of the nominal arena");
+  a.field("spray_calibration", spray_calibration, "resource file written by kiln-eval spray-calibration");
+  a.field("mission_limit_s", mission_limit_s, "s", 10, 36000, "mission clock");
+  a.field("camera_rate_hz", camera_rate_hz, "Hz", 0.1, 60, "pictures sent to the stations");
+  a.field("jpeg_quality", jpeg_quality, "%", 10, 100, "of those pictures");
+  a.section("arm", arm, "arm controller");
+  a.section("base", base, "base controller");
+  a.section("pumps", pumps, "pump controller");
+  a.section("drive_to", drive_to, "way-point driving");
+  a.section("move_arm", move_arm, "arm motion");
+  a.section("self_filter", self_filter, "the robot's own body in its scans");
+  a.section("perception", perception, "how often what is looked at");
+  a.section("aligner", aligner, "scan against the nominal walls");
+  a.section("pose", pose, "odometry and fixes");
+  a.section("heat_detector", heat_detector, "thermal picture");
+  a.section("heat_localizer", heat_localizer, "heat source over a sweep");
+  a.section("fire", fire, "fire mission");
+  a.section("teleop", teleop, "moving by hand");
+  a.section("preflight", preflight, "limits of the preflight checks");
+}
+
+}  // namespace kiln

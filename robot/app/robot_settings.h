@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+
+#include "robot/app/perception_jobs.h"
+#include "robot/app/preflight.h"
+#include "robot/app/teleop.h"
+#include "robot/missions/fire/fire_mission.h"
+#include "robot/perception/thermal/heat_localizer.h"
+#include "robot/skills/drive_to.h"
+#include "robot/skills/move_arm.h"
+
+namespace kiln {
+
+/// Everything about one robot that can be configured: resources/config/robot.yaml. Each section is the Config of the
+/// part that it configures, with that part's defaults.
+struct RobotSettings {
+  std::string name = "Bob";
+  std::string geometry = "robot_model/bob.yaml";      ///< resource
+  std::string arena = "config/arena_kitchen.yaml";    ///< resource
+  std::string spray_calibration = "config/spray_calibration.yaml";
+  double mission_limit_s = 900.0;
+  double camera_rate_hz = 10.0;
+  int jpeg_quality = 75;
+  ArmController::Config arm;
+  BaseController::Config base;
+  PumpController::Config pumps;
+  DriveTo::Config drive_to;
+  MoveArm::Config move_arm;
+  SelfFilter::Config self_filter;
+  PerceptionJobs::Config perception;
+  BoxMapAligner::Config aligner;
+  PoseTracker::Config pose;
+  HeatDetector::Config heat_detector;
+  HeatLocalizer::Config heat_localizer;
+  FireMissionConfig fire;
+  Teleop::Config teleop;
+  PreflightLimits preflight;
+  void visit(ConfigArchive& a);
+};
+
+}  // namespace kiln
