@@ -51,8 +51,10 @@ std::shared_ptr<spdlog::logger> logger(const std::string& name) {
   return created;
 }
 
-void addLogSink(std::function<void(const LogRecord&)> sink) {
-  sharedSink()->add_sink(std::make_shared<CallbackSink>(std::move(sink)));
+LogSinkHandle addLogSink(std::function<void(const LogRecord&)> sink) {
+  auto added = std::make_shared<CallbackSink>(std::move(sink));
+  sharedSink()->add_sink(added);
+  return {added.get(), [added](void*) { sharedSink()->remove_sink(added); }};
 }
 
 void setLogLevel(int level) { spdlog::set_level(static_cast<spdlog::level::level_enum>(level)); }

@@ -18,9 +18,12 @@ struct LogRecord {
   std::string text;
 };
 
-/// Adds a sink that every logger writes to (the station's event log). The callback runs on the
-/// logging thread, must be quick and must not log.
-void addLogSink(std::function<void(const LogRecord&)> sink);
+/// Takes its sink out again when it dies.
+using LogSinkHandle = std::shared_ptr<void>;
+
+/// Adds a sink that every logger writes to (the station's event log) for as long as the handle
+/// lives. The callback runs on the logging thread, must be quick and must not log.
+[[nodiscard]] LogSinkHandle addLogSink(std::function<void(const LogRecord&)> sink);
 
 /// 0 trace, 1 debug, 2 info, 3 warning, 4 error. Applies to present and future loggers.
 void setLogLevel(int level);

@@ -12,6 +12,7 @@
 #include "robot/app/state_history.h"
 #include "robot/localization/box_map_aligner.h"
 #include "robot/localization/pose_tracker.h"
+#include "robot/perception/cloud/pose_track.h"
 #include "robot/perception/cloud/self_filter.h"
 #include "robot/perception/thermal/heat_detector.h"
 
@@ -53,7 +54,7 @@ class PerceptionJobs {
  private:
   void dispatchScan(Stamp now, const PoseTracker& tracker, bool moving);
   void dispatchThermal();
-  [[nodiscard]] ScanResult processScan(const PointCloud& scan, const std::optional<AlignmentPrior>& prior, bool align) const;
+  [[nodiscard]] ScanResult processScan(const PointCloud& scan, const AlignmentPrior& prior, bool align) const;
 
   Config config_;
   Executor& executor_;

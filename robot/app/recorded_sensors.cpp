@@ -1,0 +1,3 @@
+#include "robot/app/recorded_sensors.h"
+
+namespace kiln {}
