@@ -7,11 +7,12 @@
 
 namespace kiln {
 
-/// A robot that is not attached, e.g. while recorded sensor data is shown without one: no state, and every command is
-/// refused with what to do about it.
+/// A robot that is not attached, e.g. while recorded sensor data is shown without one: no state,
+/// and every command is refused with what to do about it.
 struct AbsentDevices {
   static tl::unexpected<Error> refuse() {
-    return makeError(ErrorCode::Unavailable, "no robot is attached; start kiln-robotd with --sim ENDPOINT");
+    return makeError(ErrorCode::Unavailable,
+                     "no robot is attached; start kiln-robotd with --sim ENDPOINT");
   }
   struct AbsentArm final : Arm {
     [[nodiscard]] std::optional<ArmState> state() const override { return std::nullopt; }

@@ -10,8 +10,8 @@
 
 namespace kiln {
 
-/// The devices that one robot is made of, wherever they come from (simulator, drivers, recorded files). Nothing is
-/// owned; sensors may be missing.
+/// The devices that one robot is made of, wherever they come from (simulator, drivers, recorded
+/// files). Nothing is owned; sensors may be missing.
 struct Devices {
   Arm& arm;
   DriveBase& base;
@@ -21,7 +21,9 @@ struct Devices {
   ThermalCamera* thermal = nullptr;
   RgbCamera* operator_camera = nullptr;
   std::function<bool()> connected = [] { return false; };
-  std::function<std::uint32_t()> resets = [] { return 0U; };  ///< how often the robot was carried back
+  std::function<std::uint32_t()> resets = [] {
+    return 0U;
+  };  ///< how often the robot was carried back
 };
 
 }  // namespace kiln

@@ -1,6 +1,7 @@
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
+
+#include <CLI/CLI.hpp>
 
 #include "common/config/resources.h"
 #include "common/core/atomic_file.h"
@@ -37,16 +38,24 @@ int fail(const Error& error) {
 
 void addOptions(CLI::App& app, Arguments& a) {
   app.add_option("--sim", a.sim, "endpoint of kiln-sim, e.g. ipc:///tmp/kiln-sim");
-  app.add_option("--lidar", a.lidar, "show a recorded VLP-16 capture: pcap, or raw 1206-byte packets");
+  app.add_option("--lidar", a.lidar,
+                 "show a recorded VLP-16 capture: pcap, or raw 1206-byte packets");
   app.add_option("--thermal", a.thermal, "show recorded Lepton stills from a folder, at 8.77 Hz");
-  app.add_option("--mission", a.robot.mission, "mission")->default_val("fire")->check(CLI::IsMember({"fire"}));
+  app.add_option("--mission", a.robot.mission, "mission")
+      ->default_val("fire")
+      ->check(CLI::IsMember({"fire"}));
   app.add_flag("--start", a.robot.start, "start the mission as soon as all checks pass");
   app.add_flag("--resume", a.robot.resume, "go on from the checkpoint in the state folder");
-  app.add_flag("--lockstep", a.robot.lockstep, "step together with kiln-sim --lockstep, as fast as possible");
-  app.add_flag("--exit-when-done", a.exit_when_done, "end when the mission has ended; exit status 0 on success");
+  app.add_flag("--lockstep", a.robot.lockstep,
+               "step together with kiln-sim --lockstep, as fast as possible");
+  app.add_flag("--exit-when-done", a.exit_when_done,
+               "end when the mission has ended; exit status 0 on success");
   app.add_option("--report", a.report, "write the mission report (JSON) at the end");
-  app.add_option("--state-dir", a.robot.state_dir, "checkpoint, pose and lock; default: $XDG_STATE_HOME/kiln or ~/.local/state/kiln");
-  app.add_option("--listen", a.listen, "where stations connect: tcp://127.0.0.1:PORT or ipc:///DIR/PREFIX")->capture_default_str();
+  app.add_option("--state-dir", a.robot.state_dir,
+                 "checkpoint, pose and lock; default: $XDG_STATE_HOME/kiln or ~/.local/state/kiln");
+  app.add_option("--listen", a.listen,
+                 "where stations connect: tcp://127.0.0.1:PORT or ipc:///DIR/PREFIX")
+      ->capture_default_str();
   app.add_option("--config", a.config, "robot config (default: resources/config/robot.yaml)");
   app.add_option("--log-level", a.log_level, "0 trace .. 4 error")->check(CLI::Range(0, 5));
 }
@@ -69,7 +78,8 @@ Result<RobotSettings> loadSettings(const std::string& path) {
   return settings;
 }
 
-/// The world or recorded files: where this robot's devices come from, and the clock and executor that fit.
+/// The world or recorded files: where this robot's devices come from, and the clock and executor
+/// that fit.
 struct Runtime {
   SteadyClock steady_clock;
   ManualClock manual_clock;
@@ -80,7 +90,8 @@ struct Runtime {
   RecordedSensors recorded;
 
   [[nodiscard]] const Clock& clock() const {
-    return manual ? static_cast<const Clock&>(manual_clock) : static_cast<const Clock&>(steady_clock);
+    return manual ? static_cast<const Clock&>(manual_clock)
+                  : static_cast<const Clock&>(steady_clock);
   }
   [[nodiscard]] Executor& executor() {
     return manual ? static_cast<Executor&>(*manual) : static_cast<Executor&>(*threads);
@@ -105,7 +116,7 @@ Result<void> Runtime::open(const Arguments& a) {
     sim = std::move(*connected);
     if (manual) manual_clock.advanceTo(sim->world().now);
   }
-  return recorded.open(a.lidar, a.thermal, executor(), clock());
+  return recorded.open(a.lidar, a.thermal, executor());
 }
 
 Devices Runtime::devices() {
@@ -124,20 +135,23 @@ Devices Runtime::devices() {
   return all;
 }
 
-Result<std::unique_ptr<OperatorLink>> openLink(const Arguments& a, const RobotSettings& settings, const Clock& clock,
-                                               StopLatch& stop) {
+Result<std::unique_ptr<OperatorLink>> openLink(const Arguments& a, const RobotSettings& settings,
+                                               const Clock& clock, StopLatch& stop) {
   OperatorLink::Config config;
   config.endpoint = a.listen;
   config.robot_name = settings.name;
-  return OperatorLink::open(config, {KILN_VERSION, a.robot.environment, a.robot.mission_uuid}, clock, stop);
+  return OperatorLink::open(config, {KILN_VERSION, a.robot.environment, a.robot.mission_uuid},
+                            clock, stop);
 }
 
 int run(Arguments a) {
   if (a.sim.empty() && a.lidar.empty() && a.thermal.empty()) {
     return fail({ErrorCode::InvalidInput,
-                 "nothing to run on: give --sim ENDPOINT (a running kiln-sim), or --lidar FILE and --thermal FOLDER"});
+                 "nothing to run on: give --sim ENDPOINT (a running kiln-sim), or --lidar FILE and "
+                 "--thermal FOLDER"});
   }
-  if (a.robot.lockstep && a.sim.empty()) return fail({ErrorCode::InvalidInput, "--lockstep needs --sim ENDPOINT"});
+  if (a.robot.lockstep && a.sim.empty())
+    return fail({ErrorCode::InvalidInput, "--lockstep needs --sim ENDPOINT"});
   auto settings = loadSettings(a.config);
   if (!settings) return fail(settings.error());
   if (a.robot.state_dir.empty()) a.robot.state_dir = defaultStateFolder();
@@ -150,15 +164,19 @@ int run(Arguments a) {
   a.robot.environment = runtime.sim ? Environment::Sim : Environment::Replay;
   StopLatch stop;
   // A lockstep run must give the same report each time, so its mission is named by its world.
-  a.robot.mission_uuid = a.robot.lockstep ? fmt::format("lockstep-{}", runtime.sim->world().seed) : randomUuid();
+  a.robot.mission_uuid =
+      a.robot.lockstep ? fmt::format("lockstep-{}", runtime.sim->world().seed) : randomUuid();
   auto link = openLink(a, *settings, runtime.clock(), stop);
   if (!link) return fail(link.error());
-  auto robot = Robot::create(*settings, a.robot, runtime.devices(), runtime.clock(), runtime.executor(), link->get(), stop);
+  auto robot = Robot::create(*settings, a.robot, runtime.devices(), runtime.clock(),
+                             runtime.executor(), link->get(), stop);
   if (!robot) return fail(robot.error());
 
   const auto done = [&] { return a.exit_when_done && (*robot)->missionEnded(); };
   if (runtime.manual) {
-    if (auto ran = runLockstep(*runtime.sim, runtime.manual_clock, *runtime.manual, std::chrono::milliseconds(8), done); !ran) {
+    if (auto ran = runLockstep(*runtime.sim, runtime.manual_clock, *runtime.manual,
+                               std::chrono::milliseconds(8), done);
+        !ran) {
       return fail(ran.error());
     }
   } else {
@@ -167,7 +185,9 @@ int run(Arguments a) {
     runtime.threads->stop();
   }
   if (!a.report.empty()) {
-    if (auto written = writeFileAtomically(a.report, (*robot)->reportJson(runtime.clock().now())); !written) return fail(written.error());
+    if (auto written = writeFileAtomically(a.report, (*robot)->reportJson(runtime.clock().now()));
+        !written)
+      return fail(written.error());
   }
   if (g_termination_signal != 0) return 128 + g_termination_signal;
   return !a.exit_when_done || (*robot)->missionSucceeded() ? kSuccess : kMissionFailed;

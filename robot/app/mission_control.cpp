@@ -5,7 +5,8 @@
 namespace kiln {
 namespace {
 
-CommandAck answer(const Command& command, AckOutcome outcome, std::string code = {}, std::string reason = {}) {
+CommandAck answer(const Command& command, AckOutcome outcome, std::string code = {},
+                  std::string reason = {}) {
   CommandAck ack;
   ack.client_id = command.client_id;
   ack.nonce = command.nonce;
@@ -19,16 +20,22 @@ CommandAck answer(const Command& command, AckOutcome outcome, std::string code =
 CommandAck done(const Command& command) { return answer(command, AckOutcome::Done); }
 
 CommandAck fromResult(const Command& command, const Result<void>& result) {
-  return result ? done(command) : answer(command, AckOutcome::Failed, "device", result.error().message);
+  return result ? done(command)
+                : answer(command, AckOutcome::Failed, "device", result.error().message);
 }
 
 const char* codeOf(ChangeStateOutcome outcome) {
   switch (outcome) {
-    case ChangeStateOutcome::Ok: return "";
-    case ChangeStateOutcome::Denied: return "denied";
-    case ChangeStateOutcome::NoSuchState: return "no_such_state";
-    case ChangeStateOutcome::NeedsArguments: return "needs_arguments";
-    case ChangeStateOutcome::Moved: return "moved";
+    case ChangeStateOutcome::Ok:
+      return "";
+    case ChangeStateOutcome::Denied:
+      return "denied";
+    case ChangeStateOutcome::NoSuchState:
+      return "no_such_state";
+    case ChangeStateOutcome::NeedsArguments:
+      return "needs_arguments";
+    case ChangeStateOutcome::Moved:
+      return "moved";
   }
   return "denied";
 }
@@ -74,12 +81,14 @@ CommandAck MissionControl::executeDiscrete(const Command& command, Stamp now) {
     parts_.machine.resume(now);
     return done(command);
   }
-  if (const auto* change = std::get_if<ChangeState>(&body)) return changeState(command, *change, now);
+  if (const auto* change = std::get_if<ChangeState>(&body))
+    return changeState(command, *change, now);
   if (const auto* mode = std::get_if<SetMode>(&body)) return setMode(command, mode->mode, now);
   if (std::holds_alternative<ClearStop>(body)) {
     parts_.stop.clear();
     stop_seen_ = false;
-    logger("safety")->warn("STOP cleared by {}; nothing moves until told to", command.operator_name);
+    logger("safety")->warn("STOP cleared by {}; nothing moves until told to",
+                           command.operator_name);
     return done(command);
   }
   if (std::holds_alternative<ReleaseProtectiveStop>(body)) {
@@ -103,10 +112,12 @@ CommandAck MissionControl::executeDiscrete(const Command& command, Stamp now) {
     return answer(command, AckOutcome::Refused, "no_such_alarm",
                   fmt::format("there is no alarm '{}' any more", alarm->id));
   }
-  return answer(command, AckOutcome::Refused, "unknown_command", "this robot does not know the command");
+  return answer(command, AckOutcome::Refused, "unknown_command",
+                "this robot does not know the command");
 }
 
-CommandAck MissionControl::changeState(const Command& command, const ChangeState& change, Stamp now) {
+CommandAck MissionControl::changeState(const Command& command, const ChangeState& change,
+                                       Stamp now) {
   const ChangeStateResult result = parts_.machine.changeState(change, command.operator_name, now);
   if (result.outcome != ChangeStateOutcome::Ok) {
     return answer(command, AckOutcome::Refused, codeOf(result.outcome), result.reason);
@@ -132,7 +143,8 @@ CommandAck MissionControl::setMode(const Command& command, Mode mode, Stamp now)
     return done(command);
   }
   return answer(command, AckOutcome::Refused, "wrong_mode",
-                "supervised mode needs confirm edges, which this mission does not have; choose autonomous or teleop");
+                "supervised mode needs confirm edges, which this mission does not have; choose "
+                "autonomous or teleop");
 }
 
 void MissionControl::executeSetpoint(const Authority::Accepted& accepted) {

@@ -12,8 +12,9 @@
 
 namespace kiln {
 
-/// Which mode the robot is in and how it gets from one to another: the table of architecture.md section 6. Executes
-/// the commands that the authority has let through. Confined to the mission thread.
+/// Which mode the robot is in and how it gets from one to another: the table of architecture.md
+/// section 6. Executes the commands that the authority has let through. Confined to the mission
+/// thread.
 class MissionControl {
  public:
   struct Parts {
@@ -32,7 +33,8 @@ class MissionControl {
   void startMission(Stamp now);
   /// After --resume: the machine was restored; goes on by itself when `run`.
   void resumeMission(Stamp now);
-  /// Executes one accepted command. @return its answer; nullopt for setpoints and for a macro that answers later.
+  /// Executes one accepted command. @return its answer; nullopt for setpoints and for a macro that
+  /// answers later.
   [[nodiscard]] std::optional<CommandAck> execute(const Authority::Accepted& accepted, Stamp now);
   /// What ended since the last tick: released holds, a lost lease, a STOP that has latched.
   void onReleased(const std::vector<HoldKind>& kinds, Stamp now);

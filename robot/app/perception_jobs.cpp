@@ -15,7 +15,8 @@ struct ScanMotion {
   PoseTrack X_base_lidar;
 };
 
-ScanMotion motionDuring(const PointCloud& scan, const RobotGeometry& robot, const StateHistory& history) {
+ScanMotion motionDuring(const PointCloud& scan, const RobotGeometry& robot,
+                        const StateHistory& history) {
   ScanMotion motion;
   const auto first = history.at(scan.stamp);
   if (!first) return motion;
@@ -27,8 +28,8 @@ ScanMotion motionDuring(const PointCloud& scan, const RobotGeometry& robot, cons
     const auto sample = history.at(t);
     if (!sample) break;
     motion.arm.push(t, sample->q);
-    motion.X_base_lidar.push(
-        t, toIsometry(X_base0_odom * sample->X_odom_base) * robot.X_base_flange(sample->q) * X_flange_lidar);
+    motion.X_base_lidar.push(t, toIsometry(X_base0_odom * sample->X_odom_base) *
+                                    robot.X_base_flange(sample->q) * X_flange_lidar);
   }
   return motion;
 }
@@ -37,13 +38,16 @@ ScanMotion motionDuring(const PointCloud& scan, const RobotGeometry& robot, cons
 
 void PerceptionJobs::Config::visit(ConfigArchive& a) {
   a.field("scan_latency_s", scan_latency_s, "s", 0, 1, "modelled latency of one scan in lockstep");
-  a.field("moving_fix_period_s", moving_fix_period_s, "s", 0.05, 10, "align at most so often while moving");
-  a.field("resting_fix_period_s", resting_fix_period_s, "s", 0.05, 60, "align at most so often at rest");
+  a.field("moving_fix_period_s", moving_fix_period_s, "s", 0.05, 10,
+          "align at most so often while moving");
+  a.field("resting_fix_period_s", resting_fix_period_s, "s", 0.05, 60,
+          "align at most so often at rest");
 }
 
 PerceptionJobs::PerceptionJobs(Config config, Executor& executor, const RobotGeometry& robot,
-                               const StateHistory& history, const SelfFilter& self_filter, const BoxMapAligner& aligner,
-                               HeatDetector& detector, double heat_latency_s)
+                               const StateHistory& history, const SelfFilter& self_filter,
+                               const BoxMapAligner& aligner, HeatDetector& detector,
+                               double heat_latency_s)
     : config_(config),
       executor_(executor),
       robot_(robot),
@@ -68,17 +72,20 @@ void PerceptionJobs::dispatchScan(Stamp now, const PoseTracker& tracker, bool mo
   last_scan_ = now;
   const auto prior = tracker.priorAt((*scan)->stamp);
   const double period_s = moving ? config_.moving_fix_period_s : config_.resting_fix_period_s;
-  const bool due = !last_fix_try_ || now - *last_fix_try_ >= fromSeconds(period_s) || (prior && prior->search);
+  const bool due =
+      !last_fix_try_ || now - *last_fix_try_ >= fromSeconds(period_s) || (prior && prior->search);
   const bool align = prior.has_value() && due;
   if (align) last_fix_try_ = now;
   executor_.post({"scan", fromSeconds(config_.scan_latency_s),
-                  [this, scan = *scan, prior = prior.value_or(AlignmentPrior{}), align](std::stop_token) -> Delivery {
+                  [this, scan = *scan, prior = prior.value_or(AlignmentPrior{}),
+                   align](std::stop_token) -> Delivery {
                     auto result = std::make_shared<ScanResult>(processScan(*scan, prior, align));
                     return [this, result] { scan_results_.push(std::move(*result)); };
                   }});
 }
 
-PerceptionJobs::ScanResult PerceptionJobs::processScan(const PointCloud& scan, const AlignmentPrior& prior,
+PerceptionJobs::ScanResult PerceptionJobs::processScan(const PointCloud& scan,
+                                                       const AlignmentPrior& prior,
                                                        bool align) const {
   ScanResult result;
   result.prior = prior;
@@ -88,7 +95,8 @@ PerceptionJobs::ScanResult PerceptionJobs::processScan(const PointCloud& scan, c
     result.cloud = std::make_shared<PointCloud>(std::move(filtered.cloud));
     return result;
   }
-  result.cloud = std::make_shared<PointCloud>(undistort(filtered.cloud, motion.X_base_lidar, "base"));
+  result.cloud =
+      std::make_shared<PointCloud>(undistort(filtered.cloud, motion.X_base_lidar, "base"));
   if (align) {
     const Eigen::Vector3d p_base_lidar = motion.X_base_lidar.at(scan.stamp).translation();
     result.fix = prior.search ? aligner_.search(*result.cloud, p_base_lidar, prior.X_map_base)
@@ -101,14 +109,16 @@ void PerceptionJobs::dispatchThermal() {
   const auto image = images_.pop();
   if (!image) return;
   last_thermal_ = (*image)->stamp;
-  executor_.post({"heat", heat_latency_, [this, image = *image](std::stop_token) -> Delivery {
-                    auto result = std::make_shared<HeatResult>(HeatResult{image, detector_.detect(*image)});
-                    return [this, result] { heat_results_.push(std::move(*result)); };
-                  }});
+  executor_.post(
+      {"heat", heat_latency_, [this, image = *image](std::stop_token) -> Delivery {
+         auto result = std::make_shared<HeatResult>(HeatResult{image, detector_.detect(*image)});
+         return [this, result] { heat_results_.push(std::move(*result)); };
+       }});
 }
 
 std::uint64_t PerceptionJobs::droppedFrames() const {
-  return scans_.overwritten() + images_.dropped() + scan_results_.dropped() + heat_results_.dropped();
+  return scans_.overwritten() + images_.dropped() + scan_results_.dropped() +
+         heat_results_.dropped();
 }
 
 }  // namespace kiln

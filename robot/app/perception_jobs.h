@@ -18,32 +18,34 @@
 
 namespace kiln {
 
-/// Carries sensor frames to the perception functions and their results back: sinks run on device threads and only
-/// fill mailboxes, dispatch() and the take functions belong to the mission thread, the work runs on the pool.
+/// Carries sensor frames to the perception functions and their results back: sinks run on device
+/// threads and only fill mailboxes, dispatch() and the take functions belong to the mission thread,
+/// the work runs on the pool.
 class PerceptionJobs {
  public:
   struct Config {
-    double scan_latency_s = 0.012;        ///< modelled in lockstep; median of its benchmark
-    double moving_fix_period_s = 0.2;     ///< align at most so often while the base moves
-    double resting_fix_period_s = 1.0;    ///< and at rest
+    double scan_latency_s = 0.012;      ///< modelled in lockstep; median of its benchmark
+    double moving_fix_period_s = 0.2;   ///< align at most so often while the base moves
+    double resting_fix_period_s = 1.0;  ///< and at rest
     void visit(ConfigArchive& a);
   };
   struct ScanResult {
-    PointCloudPtr cloud;                  ///< motion-compensated, without the robot itself; frame base (or lidar)
+    PointCloudPtr cloud;  ///< motion-compensated, without the robot itself; frame base (or lidar)
     AlignmentPrior prior;
-    std::optional<Result<Alignment>> fix; ///< nullopt: not tried this time
+    std::optional<Result<Alignment>> fix;  ///< nullopt: not tried this time
   };
   struct HeatResult {
     ThermalImagePtr image;
     HeatDetections detections;
   };
-  PerceptionJobs(Config config, Executor& executor, const RobotGeometry& robot, const StateHistory& history,
-                 const SelfFilter& self_filter, const BoxMapAligner& aligner, HeatDetector& detector,
-                 double heat_latency_s);
+  PerceptionJobs(Config config, Executor& executor, const RobotGeometry& robot,
+                 const StateHistory& history, const SelfFilter& self_filter,
+                 const BoxMapAligner& aligner, HeatDetector& detector, double heat_latency_s);
 
   void onScan(PointCloudPtr scan);        ///< any thread
   void onThermal(ThermalImagePtr image);  ///< any thread
-  /// Posts jobs for what has arrived. `tracker` gives the prior; `moving` chooses how often to align.
+  /// Posts jobs for what has arrived. `tracker` gives the prior; `moving` chooses how often to
+  /// align.
   void dispatch(Stamp now, const PoseTracker& tracker, bool moving);
   [[nodiscard]] std::vector<ScanResult> takeScans() { return scan_results_.drain(); }
   [[nodiscard]] std::vector<HeatResult> takeHeat() { return heat_results_.drain(); }
@@ -54,7 +56,8 @@ class PerceptionJobs {
  private:
   void dispatchScan(Stamp now, const PoseTracker& tracker, bool moving);
   void dispatchThermal();
-  [[nodiscard]] ScanResult processScan(const PointCloud& scan, const AlignmentPrior& prior, bool align) const;
+  [[nodiscard]] ScanResult processScan(const PointCloud& scan, const AlignmentPrior& prior,
+                                       bool align) const;
 
   Config config_;
   Executor& executor_;

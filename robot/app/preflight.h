@@ -9,7 +9,8 @@
 
 namespace kiln {
 
-/// What the preflight checks look at; gathered by the mission tick. Ages in seconds, nullopt = never seen.
+/// What the preflight checks look at; gathered by the mission tick. Ages in seconds, nullopt =
+/// never seen.
 struct PreflightInputs {
   bool devices_connected = false;
   std::optional<double> arm_age_s, base_age_s, pumps_age_s, lidar_age_s, thermal_age_s;
@@ -30,7 +31,8 @@ struct PreflightLimits {
 };
 
 /// One row a check, each with what to do when it fails. All must hold before a mission starts.
-[[nodiscard]] std::vector<Check> preflight(const PreflightInputs& inputs, const PreflightLimits& limits);
+[[nodiscard]] std::vector<Check> preflight(const PreflightInputs& inputs,
+                                           const PreflightLimits& limits);
 [[nodiscard]] bool allOk(const std::vector<Check>& checks);
 /// "LiDAR: no scan for 2.1 s; check cable and power" or empty.
 [[nodiscard]] std::string firstFailure(const std::vector<Check>& checks);

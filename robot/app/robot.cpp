@@ -15,7 +15,7 @@ namespace kiln {
 namespace {
 
 constexpr Duration kMissionPeriod = std::chrono::milliseconds(20);
-constexpr double kRest_radps = 0.02;       ///< joints and wheels below this stand still
+constexpr double kRest_radps = 0.02;  ///< joints and wheels below this stand still
 constexpr double kPumpRest_a = 0.3;
 
 std::optional<double> age(const std::optional<Stamp>& stamp, Stamp now) {
@@ -30,9 +30,9 @@ std::optional<Stamp> stampOf(const std::optional<T>& state) {
 }  // namespace
 
 struct Robot::Impl {
-  Impl(const RobotSettings& settings_in, const RobotOptions& options_in, Devices devices_in, const Clock& clock_in,
-       Executor& executor, OperatorLink* link_in, StopLatch& stop_in, RobotGeometry robot_in, ArenaMap arena_in,
-       SprayCalibration spray_in);
+  Impl(const RobotSettings& settings_in, const RobotOptions& options_in, Devices devices_in,
+       const Clock& clock_in, Executor& executor, OperatorLink* link_in, StopLatch& stop_in,
+       RobotGeometry robot_in, ArenaMap arena_in, SprayCalibration spray_in);
   void start(Executor& executor);
   void controlTick(Stamp now);
   void missionTick(Stamp now);
@@ -93,9 +93,10 @@ struct Robot::Impl {
   std::atomic<bool> ended{false}, succeeded{false};
 };
 
-Robot::Impl::Impl(const RobotSettings& settings_in, const RobotOptions& options_in, Devices devices_in,
-                  const Clock& clock_in, Executor& executor, OperatorLink* link_in, StopLatch& stop_in,
-                  RobotGeometry robot_in, ArenaMap arena_in, SprayCalibration spray_in)
+Robot::Impl::Impl(const RobotSettings& settings_in, const RobotOptions& options_in,
+                  Devices devices_in, const Clock& clock_in, Executor& executor,
+                  OperatorLink* link_in, StopLatch& stop_in, RobotGeometry robot_in,
+                  ArenaMap arena_in, SprayCalibration spray_in)
     : settings(settings_in),
       options(options_in),
       devices(std::move(devices_in)),
@@ -129,12 +130,18 @@ void Robot::Impl::start(Executor& executor) {
   const Stamp now = clock.now();
   tracker.reset(arena.start.pose(), now);
   resets_seen = devices.resets();
-  if (devices.lidar) warnIfFailed(devices.lidar->start([this](PointCloudPtr scan) { perception.onScan(std::move(scan)); }));
-  if (devices.thermal) warnIfFailed(devices.thermal->start([this](ThermalImagePtr image) { perception.onThermal(std::move(image)); }));
+  if (devices.lidar)
+    warnIfFailed(
+        devices.lidar->start([this](PointCloudPtr scan) { perception.onScan(std::move(scan)); }));
+  if (devices.thermal)
+    warnIfFailed(devices.thermal->start(
+        [this](ThermalImagePtr image) { perception.onThermal(std::move(image)); }));
   if (devices.operator_camera && link) {
-    warnIfFailed(devices.operator_camera->start([this](RgbImagePtr image) { telemetry.onPicture(std::move(image)); }));
+    warnIfFailed(devices.operator_camera->start(
+        [this](RgbImagePtr image) { telemetry.onPicture(std::move(image)); }));
   }
-  executor.every(fromSeconds(1.0 / settings.arm.servo_rate_hz), "control", kPriorityControl, [this](Stamp t) { controlTick(t); });
+  executor.every(fromSeconds(1.0 / settings.arm.servo_rate_hz), "control", kPriorityControl,
+                 [this](Stamp t) { controlTick(t); });
   executor.every(kMissionPeriod, "mission", kPriorityMission, [this](Stamp t) { missionTick(t); });
   telemetry.publish(mission.machine().info());
   telemetry.publish(macros.list());
@@ -189,7 +196,8 @@ void Robot::Impl::takePerception(Stamp now) {
     const auto sample = history.at(result.image->stamp);
     if (sample) {
       const Eigen::Isometry3d X_map_thermal = toIsometry(tracked.X_map_odom * sample->X_odom_base) *
-                                              robot.X_base_flange(sample->q) * robot.X_flange_thermal.pose();
+                                              robot.X_base_flange(sample->q) *
+                                              robot.X_flange_thermal.pose();
       mission.onDetections(result.detections, X_map_thermal);
       recordEstimate(result.detections.stamp, X_map_thermal);
     }
@@ -212,8 +220,10 @@ void Robot::Impl::obeyOperators(Stamp now) {
   situation.mission_paused = fsm.paused;
   situation.ready = allOk(checks);
   situation.not_ready_reason = firstFailure(checks);
-  situation.view_age_s = std::min(age(perception.lastScan(), now).value_or(1e9), age(telemetry.lastPicture(), now).value_or(1e9));
-  Authority::Step step = authority.step(link->takeCommands(), link->operators(), link->takeStops(), situation, now);
+  situation.view_age_s = std::min(age(perception.lastScan(), now).value_or(1e9),
+                                  age(telemetry.lastPicture(), now).value_or(1e9));
+  Authority::Step step =
+      authority.step(link->takeCommands(), link->operators(), link->takeStops(), situation, now);
   control.onReleased(step.released, now);
   if (step.lease_lost) control.onLeaseLost(now);
   for (const CommandAck& ack : step.acks) link->acknowledge(ack);
@@ -256,17 +266,21 @@ void Robot::Impl::raiseAlarms(Stamp now) {
   const bool protective = arm_state && arm_state->safety == ArmSafetyMode::ProtectiveStop;
   alarms.set("arm.protective_stop", protective, AlarmLevel::Warning, "Arm in protective stop",
              "look at the arm, then hold Release protective stop", now);
-  alarms.set("devices.lost", !devices.connected(), AlarmLevel::Warning, "No connection to the robot's devices",
+  alarms.set("devices.lost", !devices.connected(), AlarmLevel::Warning,
+             "No connection to the robot's devices",
              "check power and kiln-sim; the robot stands still by itself", now);
   const PumpTracking water = pumps.tracking();
   alarms.set("pumps.no_current", water.no_current, AlarmLevel::Caution, "A pump draws no current",
              "tank empty, hose blocked or cable loose: check, then spray again", now);
-  alarms.set("pose.lost", fsm.running && tracked.health == PoseHealth::Lost, AlarmLevel::Warning, "Position lost",
-             "drive by hand or call a reset", now);
+  alarms.set("pose.lost", fsm.running && tracked.health == PoseHealth::Lost, AlarmLevel::Warning,
+             "Position lost", "drive by hand or call a reset", now);
   alarms.set("storage", !storage_ok, AlarmLevel::Caution, "Checkpoint cannot be written",
              "free some space: without it a restart begins anew", now);
-  alarms.set("fsm.blocked", !fsm.blocked.empty(), AlarmLevel::Warning, fsm.blocked, "press STOP and restart the daemon", now);
-  alarms.set("battery.low", preflightInputs(now).battery_v > 1.0 && preflightInputs(now).battery_v < settings.preflight.battery_min_v,
+  alarms.set("fsm.blocked", !fsm.blocked.empty(), AlarmLevel::Warning, fsm.blocked,
+             "press STOP and restart the daemon", now);
+  alarms.set("battery.low",
+             preflightInputs(now).battery_v > 1.0 &&
+                 preflightInputs(now).battery_v < settings.preflight.battery_min_v,
              AlarmLevel::Caution, "Battery low", "finish and change the battery", now);
 }
 

@@ -16,23 +16,27 @@ namespace kiln {
 struct RobotOptions {
   std::string mission = "fire";
   std::string mission_uuid;
-  bool start = false;          ///< start the mission by itself as soon as the preflight checks pass
-  bool resume = false;         ///< go on from the checkpoint in state_dir
-  bool lockstep = false;       ///< figures that depend on wall time stay out of reports
-  std::string state_dir;       ///< checkpoint and pose; empty = keep nothing
+  bool start = false;     ///< start the mission by itself as soon as the preflight checks pass
+  bool resume = false;    ///< go on from the checkpoint in state_dir
+  bool lockstep = false;  ///< figures that depend on wall time stay out of reports
+  std::string state_dir;  ///< checkpoint and pose; empty = keep nothing
   std::string version;
   Environment environment = Environment::Sim;
 };
 
-/// The composition root: builds every part of one robot and registers its rate groups with the executor: control at
-/// the servo rate, mission at 50 Hz. The mission tick is the only writer of world model and state machine.
+/// The composition root: builds every part of one robot and registers its rate groups with the
+/// executor: control at the servo rate, mission at 50 Hz. The mission tick is the only writer of
+/// world model and state machine.
 class Robot {
  public:
-  /// Loads geometry, arena and calibration, restores the checkpoint if asked to. `link` may be null (no stations).
-  /// Everything passed in must outlive the robot; the executor must be stopped before the robot dies.
-  [[nodiscard]] static Result<std::unique_ptr<Robot>> create(const RobotSettings& settings, const RobotOptions& options,
-                                                             Devices devices, const Clock& clock, Executor& executor,
-                                                             OperatorLink* link, StopLatch& stop);
+  /// Loads geometry, arena and calibration, restores the checkpoint if asked to. `link` may be null
+  /// (no stations). Everything passed in must outlive the robot; the executor must be stopped
+  /// before the robot dies.
+  [[nodiscard]] static Result<std::unique_ptr<Robot>> create(const RobotSettings& settings,
+                                                             const RobotOptions& options,
+                                                             Devices devices, const Clock& clock,
+                                                             Executor& executor, OperatorLink* link,
+                                                             StopLatch& stop);
   ~Robot();
   Robot(const Robot&) = delete;
   Robot& operator=(const Robot&) = delete;

@@ -6,7 +6,8 @@ void RobotSettings::visit(ConfigArchive& a) {
   a.field("name", name, "shown to operators");
   a.field("geometry", geometry, "resource file of the robot's geometry");
   a.field("arena", arena, "resource file of the nominal arena");
-  a.field("spray_calibration", spray_calibration, "resource file written by kiln-eval spray-calibration");
+  a.field("spray_calibration", spray_calibration,
+          "resource file written by kiln-eval spray-calibration");
   a.field("mission_limit_s", mission_limit_s, "s", 10, 36000, "mission clock");
   a.field("camera_rate_hz", camera_rate_hz, "Hz", 0.1, 60, "pictures sent to the stations");
   a.field("jpeg_quality", jpeg_quality, "%", 10, 100, "of those pictures");

@@ -12,12 +12,12 @@
 
 namespace kiln {
 
-/// Everything about one robot that can be configured: resources/config/robot.yaml. Each section is the Config of the
-/// part that it configures, with that part's defaults.
+/// Everything about one robot that can be configured: resources/config/robot.yaml. Each section is
+/// the Config of the part that it configures, with that part's defaults.
 struct RobotSettings {
   std::string name = "Bob";
-  std::string geometry = "robot_model/bob.yaml";      ///< resource
-  std::string arena = "config/arena_kitchen.yaml";    ///< resource
+  std::string geometry = "robot_model/bob.yaml";    ///< resource
+  std::string arena = "config/arena_kitchen.yaml";  ///< resource
   std::string spray_calibration = "config/spray_calibration.yaml";
   double mission_limit_s = 900.0;
   double camera_rate_hz = 10.0;

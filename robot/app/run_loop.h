@@ -13,10 +13,10 @@ namespace kiln {
 extern std::atomic<int> g_termination_signal;
 void installSignalHandlers();
 
-/// Lockstep: world and robot step together in periods of `step` until `done` or a signal. Events of the robot at the
-/// end of each period see the world's report of that very instant.
-[[nodiscard]] Result<void> runLockstep(SimLink& link, ManualClock& clock, ManualExecutor& executor, Duration step,
-                                       const std::function<bool()>& done);
+/// Lockstep: world and robot step together in periods of `step` until `done` or a signal. Events of
+/// the robot at the end of each period see the world's report of that very instant.
+[[nodiscard]] Result<void> runLockstep(SimLink& link, ManualClock& clock, ManualExecutor& executor,
+                                       Duration step, const std::function<bool()>& done);
 
 /// Real time: waits for `done` or a signal while the executor's threads work.
 void runRealTime(const std::function<bool()>& done);

@@ -1,18 +1,21 @@
 #include "robot/app/telemetry_hub.h"
 
+#include <utility>
+
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <utility>
 
 namespace kiln {
 namespace {
 
 constexpr double kLogRate_hz = 2.0;
-constexpr std::uint32_t kWallColour = 0x9aa3ab, kFurnitureColour = 0x8a7f70, kFireTableColour = 0xb5734a;
+constexpr std::uint32_t kWallColour = 0x9aa3ab, kFurnitureColour = 0x8a7f70,
+                        kFireTableColour = 0xb5734a;
 
 JpegImagePtr encode(const RgbImage& image, int quality) {
-  const cv::Mat rgb(image.height, image.width, CV_8UC3, const_cast<std::uint8_t*>(image.data.data()));
+  const cv::Mat rgb(image.height, image.width, CV_8UC3,
+                    const_cast<std::uint8_t*>(image.data.data()));
   cv::Mat bgr;
   cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
   auto out = std::make_shared<JpegImage>();
@@ -26,7 +29,8 @@ JpegImagePtr encode(const RgbImage& image, int quality) {
 }
 
 SceneBox sceneBox(const BoxConfig& box, std::uint32_t rgb) {
-  return {box.name, box.center.pose(), 0.5 * Eigen::Vector3d(box.size_m[0], box.size_m[1], box.size_m[2]), rgb};
+  return {box.name, box.center.pose(),
+          0.5 * Eigen::Vector3d(box.size_m[0], box.size_m[1], box.size_m[2]), rgb};
 }
 
 }  // namespace
@@ -36,7 +40,8 @@ TelemetryHub::TelemetryHub(Config config, OperatorLink* link, Executor& executor
 
 bool TelemetryHub::due(std::optional<Stamp>& last, double rate_hz, Stamp now) {
   if (!link_) return false;
-  // Half a mission tick of slack: a rate that divides the tick's must not lose every second turn to rounding.
+  // Half a mission tick of slack: a rate that divides the tick's must not lose every second turn to
+  // rounding.
   if (last && toSeconds(now - *last) < 1.0 / rate_hz - 0.01) return false;
   last = now;
   return true;
@@ -54,7 +59,9 @@ void TelemetryHub::onPicture(RgbImagePtr image) {
   if (last && toSeconds(image->stamp - *last) < 0.9 / config_.picture_rate_hz) return;
   last_picture_.put(image->stamp);
   executor_.post({"jpeg", Duration::zero(), [this, image](std::stop_token) -> Delivery {
-                    return [this, jpeg = encode(*image, config_.jpeg_quality)] { link_->publish(jpeg); };
+                    return [this, jpeg = encode(*image, config_.jpeg_quality)] {
+                      link_->publish(jpeg);
+                    };
                   }});
 }
 
@@ -74,7 +81,8 @@ std::vector<SceneBox> sceneBoxes(const ArenaMap& arena) {
   std::vector<SceneBox> boxes;
   for (const BoxConfig& wall : arena.walls) boxes.push_back(sceneBox(wall, kWallColour));
   for (const BoxConfig& item : arena.furniture) boxes.push_back(sceneBox(item, kFurnitureColour));
-  for (const BoxConfig& item : arena.fireFurniture()) boxes.push_back(sceneBox(item, kFireTableColour));
+  for (const BoxConfig& item : arena.fireFurniture())
+    boxes.push_back(sceneBox(item, kFireTableColour));
   return boxes;
 }
 

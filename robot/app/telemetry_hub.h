@@ -16,8 +16,9 @@
 
 namespace kiln {
 
-/// Decides what is published when. Values come as const snapshots at the end of the mission tick; encoding of pictures
-/// runs on the pool, everything else on the link's own thread. Confined to the mission thread but for onPicture().
+/// Decides what is published when. Values come as const snapshots at the end of the mission tick;
+/// encoding of pictures runs on the pool, everything else on the link's own thread. Confined to the
+/// mission thread but for onPicture().
 class TelemetryHub {
  public:
   struct Config {
@@ -35,14 +36,30 @@ class TelemetryHub {
   [[nodiscard]] bool fsmDue(Stamp now, std::uint64_t step);
   [[nodiscard]] bool sceneDue(Stamp now) { return due(last_scene_, config_.scene_rate_hz, now); }
 
-  void publish(RobotStatus status) { if (link_) link_->publish(std::move(status)); }
-  void publish(FsmInfo info) { if (link_) link_->publish(std::move(info)); }
-  void publish(FsmStatus status) { if (link_) link_->publish(std::move(status)); }
-  void publish(Scene scene) { if (link_) link_->publish(std::move(scene)); }
-  void publish(std::vector<MacroInfo> macros) { if (link_) link_->publish(std::move(macros)); }
-  void publish(PointCloudPtr cloud) { if (link_) link_->publish(std::move(cloud)); }
-  void publish(ThermalImagePtr image) { if (link_) link_->publish(std::move(image)); }
-  void publish(HeatDetections detections) { if (link_) link_->publish(std::move(detections)); }
+  void publish(RobotStatus status) {
+    if (link_) link_->publish(std::move(status));
+  }
+  void publish(FsmInfo info) {
+    if (link_) link_->publish(std::move(info));
+  }
+  void publish(FsmStatus status) {
+    if (link_) link_->publish(std::move(status));
+  }
+  void publish(Scene scene) {
+    if (link_) link_->publish(std::move(scene));
+  }
+  void publish(std::vector<MacroInfo> macros) {
+    if (link_) link_->publish(std::move(macros));
+  }
+  void publish(PointCloudPtr cloud) {
+    if (link_) link_->publish(std::move(cloud));
+  }
+  void publish(ThermalImagePtr image) {
+    if (link_) link_->publish(std::move(image));
+  }
+  void publish(HeatDetections detections) {
+    if (link_) link_->publish(std::move(detections));
+  }
   /// Any thread: encodes on the pool and sends, if somebody watches this camera.
   void onPicture(RgbImagePtr image);
   /// Collects log lines for the station; any thread.

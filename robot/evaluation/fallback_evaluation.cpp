@@ -1,7 +1,8 @@
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <numeric>
+
+#include <nlohmann/json.hpp>
 
 #include "common/config/resources.h"
 #include "common/geom/camera_model.h"
@@ -21,68 +22,80 @@ constexpr double kHot_k = 273.15 + 78.0;
 constexpr double kJetSpeed_mps = 6.0;
 constexpr double kGravity_mps2 = 9.81;
 
-/// Where in the thermal picture a heat source must stand for the jet of the level head to hit it: the operator's aim
-/// mark, from the nozzle's offset and the sag of the jet at the opening.
-Eigen::Vector2d aimMark(const RobotGeometry& robot, double plate_ahead_of_flange_m, double recess_m) {
+/// Where in the thermal picture a heat source must stand for the jet of the level head to hit it:
+/// the operator's aim mark, from the nozzle's offset and the sag of the jet at the opening.
+Eigen::Vector2d aimMark(const RobotGeometry& robot, double plate_ahead_of_flange_m,
+                        double recess_m) {
   const CameraModel camera = CameraModel::fromHorizontalFov(160, 120, 57.0 * M_PI / 180.0);
-  const Eigen::Isometry3d X_thermal_nozzle = robot.X_flange_thermal.pose().inverse() * robot.X_flange_nozzle.pose();
-  const double nozzle_to_opening = plate_ahead_of_flange_m - recess_m - robot.X_flange_nozzle.pose().translation().z();
+  const Eigen::Isometry3d X_thermal_nozzle =
+      robot.X_flange_thermal.pose().inverse() * robot.X_flange_nozzle.pose();
+  const double nozzle_to_opening =
+      plate_ahead_of_flange_m - recess_m - robot.X_flange_nozzle.pose().translation().z();
   const double sag = 0.5 * kGravity_mps2 * std::pow(nozzle_to_opening / kJetSpeed_mps, 2);
-  const Eigen::Vector3d target(X_thermal_nozzle.translation().x(), X_thermal_nozzle.translation().y() + sag,
-                               plate_ahead_of_flange_m - robot.X_flange_thermal.pose().translation().z());
+  const Eigen::Vector3d target(
+      X_thermal_nozzle.translation().x(), X_thermal_nozzle.translation().y() + sag,
+      plate_ahead_of_flange_m - robot.X_flange_thermal.pose().translation().z());
   return *camera.project(target);
 }
 
 const HeatBlob* hottest(const ScriptedOperator::View& view) {
   if (!view.heat || !view.heat->usable || view.heat->blobs.empty()) return nullptr;
   const auto& blobs = view.heat->blobs;
-  const auto best = std::max_element(blobs.begin(), blobs.end(),
-                                     [](const HeatBlob& a, const HeatBlob& b) { return a.peak_k < b.peak_k; });
+  const auto best =
+      std::max_element(blobs.begin(), blobs.end(),
+                       [](const HeatBlob& a, const HeatBlob& b) { return a.peak_k < b.peak_k; });
   return best->peak_k > kHot_k ? &*best : nullptr;
 }
 
 /// Jogs the arm sideways and up or down until the hot spot stands on the aim mark.
 Result<void> aimByHand(ScriptedOperator& person, const Eigen::Vector2d& mark) {
-  return person.holdWhile("aiming by hand", seconds(40), [&](const auto& view) -> std::optional<CommandBody> {
-    const HeatBlob* blob = hottest(view);
-    JogArm jog;
-    jog.frame = JogFrame::Tool;  // X right, Y down in the picture
-    if (!blob) return jog;       // look on, do not move
-    const double du = blob->u - mark.x(), dv = blob->v - mark.y();
-    if (std::hypot(du, dv) < 1.0) return std::nullopt;
-    constexpr double kGain_mps_per_px = 0.004;
-    jog.velocity[0] = std::clamp(kGain_mps_per_px * du, -0.1, 0.1);
-    jog.velocity[1] = std::clamp(kGain_mps_per_px * dv, -0.1, 0.1);
-    return jog;
-  });
+  return person.holdWhile("aiming by hand", seconds(40),
+                          [&](const auto& view) -> std::optional<CommandBody> {
+                            const HeatBlob* blob = hottest(view);
+                            JogArm jog;
+                            jog.frame = JogFrame::Tool;  // X right, Y down in the picture
+                            if (!blob) return jog;       // look on, do not move
+                            const double du = blob->u - mark.x(), dv = blob->v - mark.y();
+                            if (std::hypot(du, dv) < 1.0) return std::nullopt;
+                            constexpr double kGain_mps_per_px = 0.004;
+                            jog.velocity[0] = std::clamp(kGain_mps_per_px * du, -0.1, 0.1);
+                            jog.velocity[1] = std::clamp(kGain_mps_per_px * dv, -0.1, 0.1);
+                            return jog;
+                          });
 }
 
 Result<bool> tryPlace(ScriptedOperator& person, const RobotGeometry& robot, const ArenaMap& arena,
                       const FirePlaceConfig& place) {
   for (const GroundPoseConfig& via : place.via) {
-    if (auto drive = person.driveTo(via.pose(), 0.10); !drive) return tl::make_unexpected(drive.error());
+    if (auto drive = person.driveTo(via.pose(), 0.10); !drive)
+      return tl::make_unexpected(drive.error());
   }
-  if (auto drive = person.driveTo(place.work_pose.pose(), 0.015); !drive) return tl::make_unexpected(drive.error());
+  if (auto drive = person.driveTo(place.work_pose.pose(), 0.015); !drive)
+    return tl::make_unexpected(drive.error());
   // The plate needs about a minute to get hot.
-  const bool burning = person.waitFor("heat", seconds(45), [](const auto& v) { return hottest(v) != nullptr; }).has_value();
+  const bool burning =
+      person.waitFor("heat", seconds(45), [](const auto& v) { return hottest(v) != nullptr; })
+          .has_value();
   if (!burning) return false;
   const double plate_ahead_of_base = std::hypot(place.plate_xyz_m[0] - place.work_pose.xy_m[0],
                                                 place.plate_xyz_m[1] - place.work_pose.xy_m[1]);
   const Vector6d q = person.view().status->arm.q;
-  const Eigen::Vector2d mark =
-      aimMark(robot, plate_ahead_of_base - robot.X_base_flange(q).translation().x(), arena.recess_m);
+  const Eigen::Vector2d mark = aimMark(
+      robot, plate_ahead_of_base - robot.X_base_flange(q).translation().x(), arena.recess_m);
   if (auto aimed = aimByHand(person, mark); !aimed) return tl::make_unexpected(aimed.error());
   const SteadyClock clock;
   const Stamp until = clock.now() + fromSeconds(kSpraySeconds);
-  auto sprayed = person.holdWhile("spraying by hand", seconds(60), [&](const auto&) -> std::optional<CommandBody> {
-    if (clock.now() > until) return std::nullopt;
-    return HoldPump{1.0, 1.0};
-  });
+  auto sprayed = person.holdWhile("spraying by hand", seconds(60),
+                                  [&](const auto&) -> std::optional<CommandBody> {
+                                    if (clock.now() > until) return std::nullopt;
+                                    return HoldPump{1.0, 1.0};
+                                  });
   if (!sprayed) return tl::make_unexpected(sprayed.error());
   return true;
 }
 
-Result<void> playByHand(ScriptedOperator& person, const RobotGeometry& robot, const ArenaMap& arena) {
+Result<void> playByHand(ScriptedOperator& person, const RobotGeometry& robot,
+                        const ArenaMap& arena) {
   if (auto over = person.takeOver(); !over) return over;
   if (auto scale = person.command(SetSpeedScale{1.0}); !scale) return scale;
   for (const GroundPoseConfig& waypoint : arena.entry_path) {
@@ -105,10 +118,12 @@ Result<EvaluationResult> evaluateFallback(const SweepOptions& options) {
   ArenaMap arena;
   auto robot_file = resourcePath("robot_model/bob.yaml");
   if (!robot_file) return tl::make_unexpected(robot_file.error());
-  if (auto loaded = loadConfig(*robot_file, robot); !loaded) return tl::make_unexpected(loaded.error());
+  if (auto loaded = loadConfig(*robot_file, robot); !loaded)
+    return tl::make_unexpected(loaded.error());
   auto arena_file = resourcePath("config/arena_kitchen.yaml");
   if (!arena_file) return tl::make_unexpected(arena_file.error());
-  if (auto loaded = loadConfig(*arena_file, arena); !loaded) return tl::make_unexpected(loaded.error());
+  if (auto loaded = loadConfig(*arena_file, arena); !loaded)
+    return tl::make_unexpected(loaded.error());
 
   json runs = json::array();
   std::vector<double> litres, collisions;
@@ -133,10 +148,13 @@ Result<EvaluationResult> evaluateFallback(const SweepOptions& options) {
   EvaluationResult out;
   out.name = "fallback";
   out.figures = {{"litres_delivered", median(litres), "l", "", true},
-                 {"collisions_total", std::accumulate(collisions.begin(), collisions.end(), 0.0), "", "", true}};
+                 {"collisions_total", std::accumulate(collisions.begin(), collisions.end(), 0.0),
+                  "", "", true}};
   out.runs_json = runs.dump();
-  out.notes = fmt::format("{} runs; a scripted operator drives, aims and sprays by held commands over the operator link.",
-                          litres.size());
+  out.notes = fmt::format(
+      "{} runs; a scripted operator drives, aims and sprays by held commands over the operator "
+      "link.",
+      litres.size());
   return out;
 }
 

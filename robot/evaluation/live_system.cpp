@@ -6,18 +6,29 @@
 
 namespace kiln {
 
-Result<std::unique_ptr<LiveSystem>> LiveSystem::start(int seed, const std::vector<std::string>& robot_args,
+Result<std::unique_ptr<LiveSystem>> LiveSystem::start(int seed,
+                                                      const std::vector<std::string>& robot_args,
                                                       const std::vector<std::string>& world_args) {
   std::unique_ptr<LiveSystem> live(new LiveSystem);
   const std::string socket = "ipc://" + live->scratch_.file("world");
-  std::vector<std::string> world{siblingProgram("kiln-sim"), "--seed", std::to_string(seed),  "--listen", socket,
-                                 "--truth",                  live->scratch_.file("truth.json")};
+  std::vector<std::string> world{siblingProgram("kiln-sim"),
+                                 "--seed",
+                                 std::to_string(seed),
+                                 "--listen",
+                                 socket,
+                                 "--truth",
+                                 live->scratch_.file("truth.json")};
   world.insert(world.end(), world_args.begin(), world_args.end());
   auto world_process = ChildProcess::start(world, live->scratch_.file("sim.log"));
   if (!world_process) return tl::make_unexpected(world_process.error());
   live->world_ = std::make_unique<ChildProcess>(std::move(*world_process));
-  std::vector<std::string> robot{siblingProgram("kiln-robotd"), "--sim",    socket, "--state-dir",
-                                 live->scratch_.file("state"),  "--listen", live->linkEndpoint()};
+  std::vector<std::string> robot{siblingProgram("kiln-robotd"),
+                                 "--sim",
+                                 socket,
+                                 "--state-dir",
+                                 live->scratch_.file("state"),
+                                 "--listen",
+                                 live->linkEndpoint()};
   robot.insert(robot.end(), robot_args.begin(), robot_args.end());
   auto robot_process = ChildProcess::start(robot, live->scratch_.file("robotd.log"));
   if (!robot_process) return tl::make_unexpected(robot_process.error());
@@ -25,7 +36,8 @@ Result<std::unique_ptr<LiveSystem>> LiveSystem::start(int seed, const std::vecto
   return live;
 }
 
-Result<std::unique_ptr<ScriptedOperator>> LiveSystem::connectOperator(const std::string& name) const {
+Result<std::unique_ptr<ScriptedOperator>> LiveSystem::connectOperator(
+    const std::string& name) const {
   auto person = ScriptedOperator::connect(linkEndpoint(), name, std::chrono::seconds(15));
   if (person) return person;
   return makeError(person.error().code, "{}; the daemon's last words:\n{}", person.error().message,

@@ -10,13 +10,16 @@
 
 namespace kiln {
 
-/// World and daemon in real time, as processes of their own, with the operator link on private sockets.
+/// World and daemon in real time, as processes of their own, with the operator link on private
+/// sockets.
 class LiveSystem {
  public:
-  [[nodiscard]] static Result<std::unique_ptr<LiveSystem>> start(int seed, const std::vector<std::string>& robot_args,
-                                                                 const std::vector<std::string>& world_args);
+  [[nodiscard]] static Result<std::unique_ptr<LiveSystem>> start(
+      int seed, const std::vector<std::string>& robot_args,
+      const std::vector<std::string>& world_args);
   [[nodiscard]] std::string linkEndpoint() const { return "ipc://" + scratch_.file("link"); }
-  [[nodiscard]] Result<std::unique_ptr<ScriptedOperator>> connectOperator(const std::string& name) const;
+  [[nodiscard]] Result<std::unique_ptr<ScriptedOperator>> connectOperator(
+      const std::string& name) const;
   [[nodiscard]] ChildProcess& robot() { return *robot_; }
   [[nodiscard]] ChildProcess& world() { return *world_; }
   [[nodiscard]] const ScratchFolder& scratch() const { return scratch_; }

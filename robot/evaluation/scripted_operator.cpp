@@ -20,14 +20,19 @@ OperatorSession::Callbacks ScriptedOperator::callbacks() {
   on.on_command = [this](const CommandUpdate& u) { update([&](View& v) { v.last_command = u; }); };
   on.on_stop = [this](const StopReport& stop) { update([&](View& v) { v.stop = stop; }); };
   on.on_lease = [this](const LeaseView& lease) { update([&](View& v) { v.lease = lease; }); };
-  on.on_status = [this](const RobotStatus& s, const Arrival&) { update([&](View& v) { v.status = s; }); };
+  on.on_status = [this](const RobotStatus& s, const Arrival&) {
+    update([&](View& v) { v.status = s; });
+  };
   on.on_scene = [this](const Scene& s, const Arrival&) { update([&](View& v) { v.scene = s; }); };
-  on.on_heat = [this](const HeatDetections& h, const Arrival&) { update([&](View& v) { v.heat = h; }); };
+  on.on_heat = [this](const HeatDetections& h, const Arrival&) {
+    update([&](View& v) { v.heat = h; });
+  };
   return on;
 }
 
 Result<std::unique_ptr<ScriptedOperator>> ScriptedOperator::connect(const std::string& endpoint,
-                                                                    const std::string& name, Duration limit) {
+                                                                    const std::string& name,
+                                                                    Duration limit) {
   std::unique_ptr<ScriptedOperator> person(new ScriptedOperator);
   OperatorSession::Config config;
   config.endpoint = endpoint;
@@ -56,9 +61,11 @@ Result<void> ScriptedOperator::command(CommandBody body) {
   const std::string name(commandName(body));
   const std::uint64_t nonce = session_->send(std::move(body));
   const auto answered = [&](const View& v) {
-    return v.last_command && v.last_command->nonce == nonce && v.last_command->state != CommandState::Sent;
+    return v.last_command && v.last_command->nonce == nonce &&
+           v.last_command->state != CommandState::Sent;
   };
-  if (auto waited = waitFor("the answer to " + name, std::chrono::seconds(3), answered); !waited) return waited;
+  if (auto waited = waitFor("the answer to " + name, std::chrono::seconds(3), answered); !waited)
+    return waited;
   const CommandUpdate update = *view().last_command;
   if (update.state == CommandState::Accepted || update.state == CommandState::Done) return {};
   return makeError(ErrorCode::Refused, "{} {}: {}", name, toString(update.state), update.reason);
@@ -66,7 +73,9 @@ Result<void> ScriptedOperator::command(CommandBody body) {
 
 Result<void> ScriptedOperator::takeOver() {
   if (auto lease = command(AcquireLease{}); !lease) return lease;
-  if (auto held = waitFor("the lease", std::chrono::seconds(2), [](const View& v) { return v.lease.mine; }); !held) {
+  if (auto held =
+          waitFor("the lease", std::chrono::seconds(2), [](const View& v) { return v.lease.mine; });
+      !held) {
     return held;
   }
   if (auto mode = command(SetMode{Mode::Teleop}); !mode) return mode;
@@ -74,8 +83,9 @@ Result<void> ScriptedOperator::takeOver() {
                  [](const View& v) { return v.status && v.status->mode == Mode::Teleop; });
 }
 
-Result<void> ScriptedOperator::holdWhile(const std::string& what, Duration limit,
-                                         const std::function<std::optional<CommandBody>(const View&)>& setpoint) {
+Result<void> ScriptedOperator::holdWhile(
+    const std::string& what, Duration limit,
+    const std::function<std::optional<CommandBody>(const View&)>& setpoint) {
   const Stamp deadline = clock_.now() + limit;
   while (clock_.now() < deadline) {
     const auto wish = setpoint(view());
@@ -93,18 +103,21 @@ Result<void> ScriptedOperator::holdWhile(const std::string& what, Duration limit
 
 Result<void> ScriptedOperator::driveTo(const Pose2& goal, double tolerance_m) {
   constexpr double kTurnTolerance_rad = 0.015;
-  return holdWhile("driving by hand", std::chrono::seconds(60), [&](const View& v) -> std::optional<CommandBody> {
-    const Pose2 error = inverse(v.status->X_map_base) * goal;  // in base
-    const double distance = std::hypot(error.x_m, error.y_m);
-    if (distance < tolerance_m && std::abs(error.yaw_rad) < kTurnTolerance_rad) return std::nullopt;
-    // A careful hand: full stick far away, little near the goal.
-    const double speed = std::clamp(0.9 * distance, 0.03, 1.0);
-    const double scale = distance > 1e-6 ? speed / distance : 0.0;
-    JogBase jog;
-    if (distance >= tolerance_m) jog.twist = {error.x_m * scale, error.y_m * scale, 0.0};
-    jog.twist.wz_radps = std::clamp(1.5 * error.yaw_rad, -0.6, 0.6);
-    return jog;
-  });
+  return holdWhile("driving by hand", std::chrono::seconds(60),
+                   [&](const View& v) -> std::optional<CommandBody> {
+                     const Pose2 error = inverse(v.status->X_map_base) * goal;  // in base
+                     const double distance = std::hypot(error.x_m, error.y_m);
+                     if (distance < tolerance_m && std::abs(error.yaw_rad) < kTurnTolerance_rad)
+                       return std::nullopt;
+                     // A careful hand: full stick far away, little near the goal.
+                     const double speed = std::clamp(0.9 * distance, 0.03, 1.0);
+                     const double scale = distance > 1e-6 ? speed / distance : 0.0;
+                     JogBase jog;
+                     if (distance >= tolerance_m)
+                       jog.twist = {error.x_m * scale, error.y_m * scale, 0.0};
+                     jog.twist.wz_radps = std::clamp(1.5 * error.yaw_rad, -0.6, 0.6);
+                     return jog;
+                   });
 }
 
 ScriptedOperator::View ScriptedOperator::view() const {

@@ -12,8 +12,8 @@
 
 namespace kiln {
 
-/// A stand-in for a person at the station: sees only what the link shows and acts only through commands. Used where
-/// an evaluation needs hand commands. Blocking; confined to one thread.
+/// A stand-in for a person at the station: sees only what the link shows and acts only through
+/// commands. Used where an evaluation needs hand commands. Blocking; confined to one thread.
 class ScriptedOperator {
  public:
   /// What the operator sees.
@@ -26,8 +26,8 @@ class ScriptedOperator {
     StopReport stop;
     LinkReport link;
   };
-  [[nodiscard]] static Result<std::unique_ptr<ScriptedOperator>> connect(const std::string& endpoint,
-                                                                         const std::string& name, Duration limit);
+  [[nodiscard]] static Result<std::unique_ptr<ScriptedOperator>> connect(
+      const std::string& endpoint, const std::string& name, Duration limit);
 
   /// Waits until the view satisfies `condition`. Error: Timeout, naming `what`.
   [[nodiscard]] Result<void> waitFor(const std::string& what, Duration limit,
@@ -36,9 +36,11 @@ class ScriptedOperator {
   [[nodiscard]] Result<void> command(CommandBody body);
   /// Takes the lease and enters Teleop.
   [[nodiscard]] Result<void> takeOver();
-  /// Repeats a held setpoint, computed from the view, until `setpoint` returns nullopt (released) or the limit passes.
-  [[nodiscard]] Result<void> holdWhile(const std::string& what, Duration limit,
-                                       const std::function<std::optional<CommandBody>(const View&)>& setpoint);
+  /// Repeats a held setpoint, computed from the view, until `setpoint` returns nullopt (released)
+  /// or the limit passes.
+  [[nodiscard]] Result<void> holdWhile(
+      const std::string& what, Duration limit,
+      const std::function<std::optional<CommandBody>(const View&)>& setpoint);
   /// Drives by hand to a pose in map: stick towards it until within `tolerance_m`.
   [[nodiscard]] Result<void> driveTo(const Pose2& goal, double tolerance_m);
   [[nodiscard]] View view() const;
