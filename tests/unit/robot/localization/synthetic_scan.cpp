@@ -1,11 +1,11 @@
 #include "tests/unit/robot/localization/synthetic_scan.h"
 
+#include <array>
 #include <cmath>
 #include <random>
 
-#include <gtest/gtest.h>
-
 #include "common/config/resources.h"
+#include "common/core/check.h"
 
 namespace kiln::testing {
 namespace {
@@ -34,9 +34,9 @@ double slab(const Eigen::Vector3d& origin, const Eigen::Vector3d& ray,
 ArenaMap kitchen() {
   ArenaMap arena;
   const auto path = resourcePath("config/arena_kitchen.yaml");
-  EXPECT_TRUE(path.has_value());
+  KILN_CHECK(path.has_value(), "the arena is part of the tree");
   const auto loaded = loadConfig(*path, arena);
-  EXPECT_TRUE(loaded.has_value()) << (loaded ? Error{} : loaded.error());
+  KILN_CHECK(loaded.has_value(), loaded ? "" : loaded.error().message);
   return arena;
 }
 
@@ -66,9 +66,9 @@ PointCloud castScan(const ScanSettings& settings, const Pose2& X_map_base) {
   for (const BoxConfig& box : settings.boxes) X_box_base.push_back(box.center.pose().inverse() * X);
   PointCloud cloud;
   cloud.frame = "base";
-  for (int azimuth = 0; azimuth < 900; ++azimuth) {
+  for (int azimuth = 0; azimuth < settings.directions; ++azimuth) {
     for (int ring = 0; ring < 16; ++ring) {
-      const double a = azimuth * 0.4 * kDeg, e = (-15.0 + 2.0 * ring) * kDeg;
+      const double a = azimuth * 2.0 * M_PI / settings.directions, e = (-15.0 + 2.0 * ring) * kDeg;
       const Eigen::Vector3d ray(std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e));
       double range = settings.p_base_sensor.z() / std::max(1e-9, -ray.z());  // the floor
       for (std::size_t i = 0; i < settings.boxes.size(); ++i) {

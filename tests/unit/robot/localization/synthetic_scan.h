@@ -8,7 +8,7 @@
 
 namespace kiln::testing {
 
-/// The arena as it stands in resources/config; fails the test when it does not load.
+/// The arena as it stands in resources/config. Ends the process when it does not load.
 [[nodiscard]] ArenaMap kitchen();
 
 struct ScanSettings {
@@ -19,10 +19,12 @@ struct ScanSettings {
   double dropout = 0.005;
   double random_return_fraction =
       0.0;  ///< rays that end somewhere before the wall: hose, dust, people
+  int directions = 900;
   std::uint32_t seed = 1;
 };
 
-/// 16 lasers from -15 to 15 deg, 900 directions; a slab test against each box. Points in base.
+/// 16 lasers from -15 to 15 deg, `directions` a laser; a slab test against each box. Points in
+/// base.
 [[nodiscard]] PointCloud castScan(const ScanSettings& settings, const Pose2& X_map_base);
 
 /// Furniture and fire boxes moved by up to `metres` and 5 deg.
