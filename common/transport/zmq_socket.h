@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/core/error.h"
+
+namespace kiln {
+
+/// Owner of one ZeroMQ context; sockets must be gone before it. The library's header stays in the
+/// .cpp.
+class ZmqContext {
+ public:
+  ZmqContext();
+  ~ZmqContext();
+  ZmqContext(const ZmqContext&) = delete;
+  ZmqContext& operator=(const ZmqContext&) = delete;
+  [[nodiscard]] void* handle() const { return handle_; }
+
+ private:
+  void* handle_;
+};
+
+enum class SocketKind { Router, Dealer, XPub, Sub };
+
+struct SocketOptions {
+  int send_hwm = 64;  ///< messages a peer
+  int receive_hwm = 64;
+  std::int64_t max_message_bytes = 64 << 10;  ///< a peer that sends more is disconnected
+  std::string routing_id;                     ///< Dealer only
+};
+
+/// A non-blocking socket; LINGER is 0, a Dealer queues for living connections only, a Router
+/// reports peers that are gone. Confined to one thread once in use.
+class ZmqSocket {
+ public:
+  ZmqSocket(ZmqContext& context, SocketKind kind, const SocketOptions& options);
+  ~ZmqSocket();
+  ZmqSocket(const ZmqSocket&) = delete;
+  ZmqSocket& operator=(const ZmqSocket&) = delete;
+
+  /// Error Unavailable: in use, or not possible, in one sentence.
+  [[nodiscard]] Result<void> bind(const std::string& address);
+  [[nodiscard]] Result<void> connect(const std::string& address);
+  void subscribe(std::string_view prefix);
+  /// @return false when it cannot be queued now: peer gone or too slow. Nothing was sent then.
+  [[nodiscard]] bool send(std::initializer_list<std::string_view> parts);
+  /// A whole multipart message, or nullopt when none is waiting.
+  [[nodiscard]] std::optional<std::vector<std::string>> receive();
+  [[nodiscard]] void* handle() const { return handle_; }
+
+ private:
+  void* handle_;
+};
+
+/// Waits until one of the sockets or `wake_fd` is readable, at most `timeout_ms`.
+void waitReadable(std::initializer_list<const ZmqSocket*> sockets, int wake_fd, int timeout_ms);
+
+}  // namespace kiln
