@@ -1,0 +1,153 @@
+#include "gui/views/thermal/thermal_tile.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QToolButton>
+
+namespace kiln::gui {
+namespace {
+
+constexpr double kFrozen_s = 1.0;  // longer than the camera's own shutter pause of 0.6 s
+constexpr int kColumn_px = 118;
+
+const HeatBlob* hottestAccepted(const HeatDetections* heat) {
+  if (!heat || !heat->usable) return nullptr;
+  for (const HeatBlob& blob : heat->blobs)
+    if (blob.rejection == HeatRejection::None) return &blob;
+  return nullptr;
+}
+
+QString rejectedText(const HeatDetections* heat) {
+  if (!heat) return {};
+  int count = 0;
+  QString last;
+  for (const HeatBlob& blob : heat->blobs) {
+    if (blob.rejection == HeatRejection::None) continue;
+    ++count;
+    const auto why = toString(blob.rejection);
+    last = QString::fromUtf8(why.data(), static_cast<int>(why.size()));
+  }
+  if (count == 0) return {};
+  return count == 1 ? ThermalTile::tr("1 rejected: %1").arg(last)
+                    : ThermalTile::tr("%1 rejected").arg(count);
+}
+
+}  // namespace
+
+ThermalTile::ThermalTile(const Ui& ui, StationModels& models, QWidget* parent)
+    : Tile(ui, tr("Thermal"), parent), ui_(ui), models_(models), view_(new ThermalView(ui)) {
+  auto* content = new QWidget;
+  auto* row = new QHBoxLayout(content);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->setSpacing(4);
+  row->addWidget(view_, 1);
+  row->addWidget(makeColumn());
+  setContent(content);
+  connect(&models_.thermal, &Model::changed, this, &ThermalTile::refresh);
+  connect(&models_, &StationModels::aged, this, &ThermalTile::refreshAge);
+  connect(&ui_.theme, &Theme::changed, this, &ThermalTile::restyle);
+  connect(view_, &ThermalView::hovered, this,
+          [this](const QString& reading) { reading_->setText(reading); });
+  connect(scale_, &QToolButton::toggled, this, [this](bool automatic) {
+    view_->setAutomaticScale(automatic);
+    scale_->setText(automatic ? tr("scale: AUTO") : tr("scale: fixed"));
+    restyle();
+  });
+  restyle();
+  refresh();
+}
+
+QWidget* ThermalTile::makeColumn() {
+  auto* column = new QWidget;
+  column->setFixedWidth(kColumn_px);
+  auto* layout = new QVBoxLayout(column);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(3);
+  peak_caption_ = new QLabel(tr("Peak"));
+  peak_ = new QLabel;
+  box_ = new QLabel;
+  rejected_ = new QLabel;
+  reading_ = new QLabel;
+  for (QLabel* label : {peak_caption_, peak_, box_, rejected_, reading_}) {
+    label->setWordWrap(label != peak_);
+    layout->addWidget(label);
+  }
+  layout->addStretch(1);
+  scale_ = new QToolButton;
+  scale_->setCheckable(true);
+  scale_->setText(tr("scale: fixed"));
+  scale_->setToolTip(
+      tr("fixed 20 to 150 °C, or fitted to each picture (then the same colour means another "
+         "temperature)"));
+  scale_->setFocusPolicy(Qt::NoFocus);
+  layout->addWidget(scale_);
+  return column;
+}
+
+QString ThermalTile::refusal() const {
+  const ThermalImagePtr& image = models_.thermal.image();
+  if (!image) return tr("no thermal picture yet");
+  if (!isWhole(*image))
+    return tr("picture damaged: %1 of %2 pixels")
+        .arg(image->counts.size())
+        .arg(image->width * image->height);
+  if (!hasTemperatures(*image)) return tr("not TLinear: shades are no temperatures");
+  if (image->ffc == FfcState::Running) return tr("shutter closed: the camera calibrates itself");
+  const double frozen_s = models_.thermal.frozenS();
+  if (frozen_s > kFrozen_s) return tr("frozen %1 s: frames repeat").arg(frozen_s, 0, 'f', 1);
+  if (models_.thermal.heat() && !models_.thermal.heat()->usable)
+    return QString::fromStdString(models_.thermal.heat()->refusal);
+  return {};
+}
+
+void ThermalTile::refresh() {
+  view_->show(models_.thermal.image(), models_.thermal.heat(), refusal());
+  describe();
+  refreshAge();
+}
+
+void ThermalTile::describe() {
+  const ThermalImagePtr& image = models_.thermal.image();
+  const HeatDetections* heat = models_.thermal.heat().get();
+  const HeatBlob* fire = hottestAccepted(heat);
+  const auto hottest = image ? peakCelsius(*image) : std::nullopt;
+  const double peak_c = fire ? toCelsius(fire->peak_k) : hottest.value_or(0.0);
+  peak_caption_->setText(fire ? tr("Peak of the source") : tr("Hottest pixel"));
+  peak_->setText(fire || hottest ? tr("%1 °C").arg(peak_c, 0, 'f', 0) : QStringLiteral("–"));
+  box_->setText(fire ? tr("Box %1 × %2 px")
+                           .arg(fire->u_max - fire->u_min + 1)
+                           .arg(fire->v_max - fire->v_min + 1)
+                     : tr("no source found"));
+  rejected_->setText(rejectedText(heat));
+}
+
+void ThermalTile::refreshAge() {
+  const double age_s = models_.thermal.ageS();
+  setAge(age_s, models_.thermal.ageLevel());
+  setInfo(models_.thermal.hasData() ? tr("%1 Hz").arg(models_.thermal.rateHz(), 0, 'f', 1)
+                                    : QString());
+  setStaleText(tr("no new frame for %1").arg(ageText(age_s)), tr("temperatures may have changed"));
+  view_->show(models_.thermal.image(), models_.thermal.heat(), refusal());
+}
+
+void ThermalTile::restyle() {
+  const Palette& p = ui_.theme.colors();
+  const auto style = [](QLabel* label, const QColor& color, const QFont& font) {
+    label->setFont(font);
+    label->setStyleSheet(QStringLiteral("color: %1").arg(color.name()));
+  };
+  QFont large = ui_.theme.font(TextRole::Value);
+  large.setPointSizeF(large.pointSizeF() * 1.5);  // read from across the tent
+  style(peak_caption_, p.dim, ui_.theme.font(TextRole::Small));
+  style(peak_, p.text, large);
+  style(box_, p.dim, ui_.theme.font(TextRole::Small));
+  style(rejected_, p.dim, ui_.theme.font(TextRole::Small));
+  style(reading_, p.text, ui_.theme.font(TextRole::Small));
+  scale_->setFont(ui_.theme.font(TextRole::Small));
+  scale_->setStyleSheet(
+      QStringLiteral(
+          "QToolButton { border: 1px solid %1; border-radius: 3px; padding: 2px 6px; color: %2; }")
+          .arg(p.border.name(), scale_->isChecked() ? p.caution.name() : p.dim.name()));
+}
+
+}  // namespace kiln::gui

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "gui/models/station_models.h"
+#include "gui/views/thermal/thermal_view.h"
+#include "gui/widgets/tile.h"
+
+class QLabel;
+class QToolButton;
+
+namespace kiln::gui {
+
+/// The thermal camera as a tile: picture, scale, peak in large digits, what was taken for the fire
+/// and what not.
+class ThermalTile : public Tile {
+  Q_OBJECT
+ public:
+  ThermalTile(const Ui& ui, StationModels& models, QWidget* parent = nullptr);
+  [[nodiscard]] ThermalView& view() { return *view_; }
+  /// Why the picture must not be read, in one sentence; empty if it may.
+  [[nodiscard]] QString refusal() const;
+
+ private:
+  void refresh();
+  void refreshAge();
+  void describe();
+  void restyle();
+  QWidget* makeColumn();
+
+  Ui ui_;
+  StationModels& models_;
+  ThermalView* view_;
+  QLabel *peak_caption_, *peak_, *box_, *rejected_, *reading_;
+  QToolButton* scale_;
+};
+
+}  // namespace kiln::gui
