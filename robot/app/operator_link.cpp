@@ -1,0 +1,382 @@
+#include "robot/app/operator_link.h"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <map>
+#include <mutex>
+#include <utility>
+
+#include "common/core/bounded_queue.h"
+#include "common/core/log.h"
+#include "common/geom/frames.h"
+#include "common/transport/monotonic.h"
+#include "common/transport/robot_end.h"
+#include "common/transport/stop_lane.h"
+#include "common/wire/command.h"
+#include "common/wire/fsm.h"
+#include "common/wire/sensor.h"
+#include "common/wire/telemetry.h"
+#include "common/wire/world.h"
+
+namespace kiln {
+namespace {
+
+constexpr double kHeartbeatPeriod_s = 0.2;
+constexpr double kUnusableRtt_s = 1e3;  // what a peer that reports nonsense is taken for
+constexpr std::size_t kMaxPeers = 32;
+constexpr std::size_t kMaxStopEvents = 64;
+constexpr std::size_t kRememberedStops = 64;
+
+double saneDuration(double seconds) {
+  return std::isfinite(seconds) && seconds >= 0.0 ? seconds : kUnusableRtt_s;
+}
+
+struct Peer {
+  OperatorPeer seen;
+  Monotonic::time_point heard;
+  Monotonic::time_point heartbeat_sent;
+  std::uint64_t heartbeats = 0;
+};
+
+/// A STOP that was obeyed: its repetitions are answered, not obeyed again after somebody has
+/// cleared the latch.
+struct HandledStop {
+  std::string client_id;
+  std::uint64_t nonce = 0;
+  Stamp latched;
+};
+
+}  // namespace
+
+void OperatorLink::Config::visit(ConfigArchive& a) {
+  a.field("endpoint", endpoint, "tcp://127.0.0.1:PORT (four ports in a row) or ipc:///dir/prefix");
+  a.field("robot_name", robot_name, "shown at the station");
+  a.field("forget_after_s", forget_after_s, "s", 2.0, 600.0,
+          "a silent client is dropped from the list");
+  a.field("command_queue", command_queue, "", 16, 4096,
+          "commands that may wait for the mission tick");
+  a.field("cloud_resolution_m", cloud_resolution_m, "m", 0.001, 0.05,
+          "quantisation of published clouds");
+}
+
+struct OperatorLink::Impl {
+  Impl(Config c, Identity i, const Clock& robot_clock, StopLatch& stop)
+      : config(std::move(c)),
+        identity(std::move(i)),
+        clock(robot_clock),
+        latch(stop),
+        commands(static_cast<std::size_t>(config.command_queue), DropPolicy::Newest) {}
+
+  // link thread
+  void onMessage(const std::string& from, std::string_view bytes);
+  void onHello(const std::string& from, const Hello& hello);
+  void onHeartbeat(const std::string& from, const Heartbeat& heartbeat);
+  void onCommand(const std::string& from, Command command);
+  void onTick();
+  [[nodiscard]] std::string objection(const std::string& from, const Hello& hello) const;
+  [[nodiscard]] bool heard(const std::string& from, Stamp now, OperatorPeer* seen);
+  // stop thread
+  [[nodiscard]] std::string onStop(std::string_view bytes);
+
+  void reply(const std::string& to, const ToStation& message) {
+    end->send(to, wire::encode(message));
+  }
+
+  Config config;
+  Identity identity;  // mission_uuid guarded by mutex
+  const Clock& clock;
+  StopLatch& latch;
+  BoundedQueue<ReceivedCommand> commands;
+  BoundedQueue<StopEvent> stops{kMaxStopEvents, DropPolicy::Oldest};
+  std::deque<HandledStop> handled_stops;  // stop thread only
+  mutable std::mutex mutex;
+  std::map<std::string, Peer> peers;  // guarded by mutex
+  std::unique_ptr<RobotEnd> end;      // after everything its thread uses
+  std::unique_ptr<StopServer> stop_server;
+};
+
+Result<std::unique_ptr<OperatorLink>> OperatorLink::open(Config config, Identity identity,
+                                                         const Clock& clock, StopLatch& stop) {
+  const auto addresses = parseEndpoint(config.endpoint);
+  if (!addresses) return tl::make_unexpected(addresses.error());
+  auto impl = std::make_unique<Impl>(std::move(config), std::move(identity), clock, stop);
+  auto end = RobotEnd::bind(*addresses, clock);
+  if (!end) return tl::make_unexpected(end.error());
+  impl->end = std::move(*end);
+  auto server = StopServer::bind(
+      addresses->stop, [raw = impl.get()](std::string_view bytes) { return raw->onStop(bytes); });
+  if (!server) return tl::make_unexpected(server.error());
+  impl->stop_server = std::move(*server);
+  impl->end->start({[raw = impl.get()](const std::string& from, std::string_view bytes) {
+                      raw->onMessage(from, bytes);
+                    },
+                    [raw = impl.get()] { raw->onTick(); }});
+  logger("link")->info("listening on {}", impl->config.endpoint);
+  return std::unique_ptr<OperatorLink>(new OperatorLink(std::move(impl)));
+}
+
+OperatorLink::OperatorLink(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+OperatorLink::~OperatorLink() = default;
+
+// --- link thread
+// -----------------------------------------------------------------------------------------------------
+
+void OperatorLink::Impl::onMessage(const std::string& from, std::string_view bytes) {
+  auto message = wire::decodeToRobot(bytes);
+  if (!message) {
+    logger("link")->warn("{}", message.error().message);
+    return;
+  }
+  if (const auto* hello = std::get_if<Hello>(&*message)) return onHello(from, *hello);
+  if (const auto* heartbeat = std::get_if<Heartbeat>(&*message))
+    return onHeartbeat(from, *heartbeat);
+  onCommand(from, std::move(std::get<Command>(*message)));
+}
+
+std::string OperatorLink::Impl::objection(const std::string& from, const Hello& hello) const {
+  if (hello.protocol != kProtocolVersion) {
+    return fmt::format(
+        "{} runs Kiln {} (protocol {}), this client {} (protocol {}); install the same version at "
+        "both ends",
+        config.robot_name, identity.version, kProtocolVersion, hello.version, hello.protocol);
+  }
+  if (hello.client_id.empty() || hello.client_id != from) {
+    return "the client id is not the one of its socket; restart the client";
+  }
+  if (!hello.expected_mission_uuid.empty() &&
+      hello.expected_mission_uuid != identity.mission_uuid) {
+    return fmt::format(
+        "{} runs mission {}, this client expects {}; reconnect to the present mission",
+        config.robot_name, identity.mission_uuid.empty() ? "none" : identity.mission_uuid,
+        hello.expected_mission_uuid);
+  }
+  if (!peers.contains(from) && peers.size() >= kMaxPeers) {
+    return fmt::format("{} clients are connected already; close one", kMaxPeers);
+  }
+  return {};
+}
+
+void OperatorLink::Impl::onHello(const std::string& from, const Hello& hello) {
+  HelloReply answer;
+  bool is_new = false;
+  {
+    const std::lock_guard lock(mutex);
+    answer.reason = objection(from, hello);
+    answer.accepted = answer.reason.empty();
+    answer.mission_uuid = identity.mission_uuid;
+    if (answer.accepted) {
+      is_new = !peers.contains(from);
+      Peer& peer = peers[from];
+      peer.seen.client_id = hello.client_id;
+      peer.seen.name = hello.operator_name;
+      peer.seen.version = hello.version;
+      peer.seen.role = hello.role;
+      peer.seen.last_heard = clock.now();
+      peer.heard = monotonicNow();
+    } else {
+      peers.erase(from);
+    }
+  }
+  answer.robot_name = config.robot_name;
+  answer.version = identity.version;
+  answer.protocol = kProtocolVersion;
+  answer.environment = identity.environment;
+  if (!answer.accepted) logger("link")->warn("refused {}: {}", hello.operator_name, answer.reason);
+  if (is_new) logger("link")->info("{} connected (Kiln {})", hello.operator_name, hello.version);
+  reply(from, answer);
+}
+
+bool OperatorLink::Impl::heard(const std::string& from, Stamp now, OperatorPeer* seen) {
+  {
+    const std::lock_guard lock(mutex);
+    const auto peer = peers.find(from);
+    if (peer != peers.end()) {
+      peer->second.seen.last_heard = now;
+      peer->second.heard = monotonicNow();
+      *seen = peer->second.seen;
+      return true;
+    }
+  }
+  HelloReply unknown;
+  unknown.reason = fmt::format("{} does not know this client; say hello first", config.robot_name);
+  unknown.robot_name = config.robot_name;
+  unknown.version = identity.version;
+  unknown.protocol = kProtocolVersion;
+  reply(from, unknown);
+  return false;
+}
+
+void OperatorLink::Impl::onHeartbeat(const std::string& from, const Heartbeat& heartbeat) {
+  const Stamp received = clock.now();
+  OperatorPeer seen;
+  if (!heard(from, received, &seen)) return;
+  Heartbeat answer;
+  {
+    const std::lock_guard lock(mutex);
+    Peer& peer = peers[from];
+    peer.seen.rtt_s = saneDuration(heartbeat.rtt_s);
+    peer.seen.peer_rx_age_s = saneDuration(heartbeat.rx_age_s);
+    peer.heartbeat_sent = monotonicNow();
+    answer.seq = ++peer.heartbeats;
+    answer.rtt_s = peer.seen.rtt_s;
+  }
+  answer.station_send_ns = heartbeat.station_send_ns;
+  answer.robot_receive_ns = toNanoseconds(received);
+  answer.robot_send_ns = toNanoseconds(clock.now());
+  reply(from, answer);
+}
+
+void OperatorLink::Impl::onCommand(const std::string& from, Command command) {
+  const Stamp received = clock.now();
+  OperatorPeer seen;
+  if (!heard(from, received, &seen)) return;
+  CommandAck refusal;
+  refusal.client_id = from;
+  refusal.nonce = command.nonce;
+  refusal.command = commandName(command.body);
+  refusal.outcome = AckOutcome::Refused;
+  if (command.client_id != from) {
+    refusal.code = "wrong_client";
+    refusal.reason = "the command carries another client's id; restart the client";
+    return reply(from, refusal);
+  }
+  command.operator_name = seen.name;  // as introduced, not as claimed
+  if (commands.push({std::move(command), received, seen.role, seen.rtt_s})) return;
+  refusal.code = "busy";
+  refusal.reason = fmt::format(
+      "{} commands wait already; the robot's mission loop does not keep up", commands.size());
+  reply(from, refusal);
+}
+
+void OperatorLink::Impl::onTick() {
+  const auto now = monotonicNow();
+  std::vector<std::pair<std::string, Heartbeat>> due;
+  {
+    const std::lock_guard lock(mutex);
+    for (auto it = peers.begin(); it != peers.end();) {
+      Peer& peer = it->second;
+      const double rx_age_s = secondsBetween(peer.heard, now);
+      if (rx_age_s > config.forget_after_s) {
+        logger("link")->info("{} is gone: not heard for {:.0f} s", peer.seen.name, rx_age_s);
+        it = peers.erase(it);
+        continue;
+      }
+      if (secondsBetween(peer.heartbeat_sent, now) >= kHeartbeatPeriod_s) {
+        peer.heartbeat_sent = now;
+        // Unasked for: it reaches a station that we do not hear, and tells it so.
+        due.emplace_back(it->first,
+                         Heartbeat{++peer.heartbeats, 0, 0, 0, rx_age_s, peer.seen.rtt_s});
+      }
+      ++it;
+    }
+  }
+  for (auto& [to, heartbeat] : due) {
+    heartbeat.robot_send_ns = toNanoseconds(clock.now());
+    reply(to, heartbeat);
+  }
+}
+
+// --- stop thread
+// -----------------------------------------------------------------------------------------------------
+
+std::string OperatorLink::Impl::onStop(std::string_view bytes) {
+  const auto request = wire::decodeStopRequest(bytes);
+  if (!request) {
+    // Whatever arrives on this lane means stop.
+    latch.set("unreadable request on the STOP lane", clock.now());
+    stops.push({"", "unreadable request", clock.now()});
+    return {};
+  }
+  auto known = std::find_if(handled_stops.begin(), handled_stops.end(), [&](const HandledStop& h) {
+    return h.client_id == request->client_id && h.nonce == request->nonce;
+  });
+  if (known == handled_stops.end()) {
+    latch.set(fmt::format("operator {}", request->operator_name), clock.now());
+    const Stamp latched = clock.now();
+    stops.push({request->client_id, request->operator_name, latched});
+    handled_stops.push_back({request->client_id, request->nonce, latched});
+    if (handled_stops.size() > kRememberedStops) handled_stops.pop_front();
+    known = std::prev(handled_stops.end());
+    logger("link")->warn("STOP by {}", request->operator_name);
+  }
+  return wire::encode(
+      StopAck{request->nonce, request->sent_station_ns, toNanoseconds(known->latched), true});
+}
+
+// --- any thread
+// ------------------------------------------------------------------------------------------------------
+
+std::vector<ReceivedCommand> OperatorLink::takeCommands() { return impl_->commands.drain(); }
+std::vector<StopEvent> OperatorLink::takeStops() { return impl_->stops.drain(); }
+void OperatorLink::acknowledge(const CommandAck& ack) { impl_->reply(ack.client_id, ack); }
+
+std::vector<OperatorPeer> OperatorLink::operators() const {
+  const auto now = monotonicNow();
+  const std::lock_guard lock(impl_->mutex);
+  std::vector<OperatorPeer> out;
+  for (const auto& [id, peer] : impl_->peers) {
+    out.push_back(peer.seen);
+    out.back().rx_age_s = secondsBetween(peer.heard, now);
+  }
+  return out;
+}
+
+void OperatorLink::setMissionUuid(const std::string& uuid) {
+  const std::lock_guard lock(impl_->mutex);
+  impl_->identity.mission_uuid = uuid;
+}
+
+void OperatorLink::publish(RobotStatus status) {
+  impl_->end->publish(Topic::RobotStatus,
+                      [value = std::move(status)] { return wire::encode(value); });
+}
+void OperatorLink::publish(FsmInfo info) {
+  impl_->end->publish(Topic::FsmInfo, [value = std::move(info)] { return wire::encode(value); });
+}
+void OperatorLink::publish(FsmStatus status) {
+  impl_->end->publish(Topic::FsmStatus,
+                      [value = std::move(status)] { return wire::encode(value); });
+}
+void OperatorLink::publish(Scene scene) {
+  impl_->end->publish(Topic::Scene, [value = std::move(scene)] { return wire::encode(value); });
+}
+void OperatorLink::publish(std::vector<MacroInfo> macros) {
+  impl_->end->publish(Topic::Macros, [value = std::move(macros)] { return wire::encode(value); });
+}
+void OperatorLink::publish(LogBatch batch) {
+  impl_->end->publish(Topic::Log, [value = std::move(batch)] { return wire::encode(value); });
+}
+void OperatorLink::publish(PointCloudPtr cloud) {
+  impl_->end->publish(Topic::Cloud,
+                      [value = std::move(cloud), resolution_m = impl_->config.cloud_resolution_m] {
+                        return wire::encode(*value, resolution_m);
+                      });
+}
+void OperatorLink::publish(ThermalImagePtr image) {
+  impl_->end->publish(Topic::Thermal, [value = std::move(image)] { return wire::encode(*value); });
+}
+void OperatorLink::publish(HeatDetections detections) {
+  impl_->end->publish(Topic::Heat, [value = std::move(detections)] { return wire::encode(value); });
+}
+void OperatorLink::publish(JpegImagePtr image) {
+  const Topic topic =
+      image->frame == frames::kOperatorCamera ? Topic::OperatorCamera : Topic::HeadCamera;
+  impl_->end->publish(topic, [value = std::move(image)] { return wire::encode(*value); });
+}
+
+bool OperatorLink::wanted(const std::string& jpeg_frame) const {
+  return impl_->end->subscribed(jpeg_frame == frames::kOperatorCamera ? Topic::OperatorCamera
+                                                                      : Topic::HeadCamera);
+}
+
+std::vector<DropCount> OperatorLink::drops() const {
+  std::vector<DropCount> out;
+  for (const TopicInfo& info : topicTable())
+    out.push_back({std::string(info.name), impl_->end->dropped(info.topic)});
+  out.push_back({"commands", impl_->commands.dropped()});
+  out.push_back({"acks", impl_->end->droppedSends()});
+  return out;
+}
+
+}  // namespace kiln
