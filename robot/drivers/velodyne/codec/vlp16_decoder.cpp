@@ -82,12 +82,17 @@ void Vlp16Decoder::decodeSequence(const Block& block, int half, int gap, double 
     const double range = echo.distance * kUnit_m;
     if (range < config_.min_range_m || range > config_.max_range_m) continue;
     const double within = kSequence_us * half + kFiring_us * laser;
+    const double turned = gap * within / kBlock_us;
+    const double whole = std::floor(turned);
     const auto azimuth =
-        static_cast<std::size_t>(block.azimuth + std::lround(gap * within / kBlock_us)) %
-        kAzimuthUnits;
+        static_cast<std::size_t>(block.azimuth + static_cast<int>(whole)) % kAzimuthUnits;
+    // Table plus first order: at 50 m a whole table step would be 9 mm.
+    const float rest = static_cast<float>((turned - whole) * M_PI / 18000);
+    const float sine = sin_azimuth_[azimuth] + rest * cos_azimuth_[azimuth];
+    const float cosine = cos_azimuth_[azimuth] - rest * sin_azimuth_[azimuth];
     const auto l = static_cast<std::size_t>(laser);
     const float flat = static_cast<float>(range) * cos_elevation_[l];
-    out.points.push_back({flat * cos_azimuth_[azimuth], -flat * sin_azimuth_[azimuth],
+    out.points.push_back({flat * cosine, -flat * sine,
                           static_cast<float>(range) * sin_elevation_[l] + rise_m_[l],
                           echo.reflectivity, ringOf(laser), static_cast<std::uint16_t>(azimuth),
                           static_cast<float>(time_us + kFiring_us * laser)});

@@ -14,7 +14,7 @@ struct DecodedPoint {
   float x, y, z;           ///< metres
   std::uint8_t intensity;  ///< 0-100 diffuse, 101-255 retro-reflector
   std::uint8_t ring;       ///< 0 lowest .. 15 highest laser
-  std::uint16_t azimuth;   ///< 0.01 deg, interpolated
+  std::uint16_t azimuth;   ///< 0.01 deg, interpolated and rounded down
   float time_us;           ///< after the packet's timestamp
 };
 

@@ -1,0 +1,70 @@
+#include "robot/drivers/lepton/device/lepton_file_camera.h"
+
+#include <filesystem>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <opencv2/imgcodecs.hpp>
+
+#include "common/core/manual_executor.h"
+
+namespace kiln {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+class LeptonFileCameraTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / ("kiln_stills_" + std::to_string(::getpid()));
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+  void addPng(const std::string& name, std::uint16_t value) const {
+    cv::imwrite((folder_ / name).string(), cv::Mat(120, 160, CV_16UC1, cv::Scalar(value)));
+  }
+  fs::path folder_;
+  ManualClock clock_;
+  ManualExecutor executor_{clock_};
+};
+
+TEST_F(LeptonFileCameraTest, ShowsEachStillForAWhileAtTheCamerasRate) {
+  addPng("a.png", 1);
+  addPng("b.png", 2);
+  auto camera =
+      LeptonFileCamera::open(folder_.string(), executor_, {.rate_hz = 8.77, .frames_per_still = 3});
+  ASSERT_TRUE(camera.has_value()) << camera.error();
+  std::vector<ThermalImagePtr> shown;
+  ASSERT_TRUE((*camera)->start([&](ThermalImagePtr image) { shown.push_back(std::move(image)); }));
+  executor_.runUntil(Stamp{std::chrono::seconds(1)});
+  ASSERT_EQ(shown.size(), 8u);  // floor(8.77)
+  std::vector<int> values;
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    values.push_back(shown[i]->counts[0]);
+    EXPECT_EQ(shown[i]->frame_counter, i);  // a still shown again is not a frozen camera
+    EXPECT_NEAR(toSeconds(shown[i]->stamp), static_cast<double>(i + 1) / 8.77, 1e-6);
+  }
+  EXPECT_EQ(values, (std::vector<int>{1, 1, 1, 2, 2, 2, 1, 1}));
+}
+
+TEST_F(LeptonFileCameraTest, RefusesAFolderWithoutStillsOrWithABrokenOne) {
+  EXPECT_THAT(LeptonFileCamera::open("/nonexistent", executor_).error().message,
+              HasSubstr("no such folder"));
+  EXPECT_THAT(LeptonFileCamera::open(folder_.string(), executor_).error().message,
+              HasSubstr("holds no still"));
+  addPng("a.png", 1);
+  std::ofstream(folder_ / "b.tjsn") << "{\"radiometric\":";
+  EXPECT_THAT(LeptonFileCamera::open(folder_.string(), executor_).error().message,
+              ::testing::AllOf(HasSubstr("b.tjsn"), HasSubstr("not valid JSON")));
+}
+
+TEST_F(LeptonFileCameraTest, RefusesEightBitPictures) {
+  cv::imwrite((folder_ / "photo.png").string(), cv::Mat(120, 160, CV_8UC1, cv::Scalar(7)));
+  EXPECT_THAT(LeptonFileCamera::open(folder_.string(), executor_).error().message,
+              HasSubstr("16-bit greyscale"));
+}
+
+}  // namespace
+}  // namespace kiln
