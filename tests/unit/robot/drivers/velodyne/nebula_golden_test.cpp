@@ -1,6 +1,13 @@
 // Against another program's decode of the same packets (tier4/nebula). Two quirks of that decode
 // keep it from 100 %: it does not interpolate the last pair of a packet, and gives odd blocks
 // (return types 5 and 10) the next pair's azimuth.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <map>
+#include <tuple>
+
 #include <Eigen/Core>
 #include <gtest/gtest.h>
 
