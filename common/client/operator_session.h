@@ -66,7 +66,7 @@ struct CommandUpdate {
 struct StopReport {
   enum class State : std::uint8_t { Idle, Sent, Latched };
   State state = State::Idle;
-  int repetitions = 0;
+  int repetitions = 0;  ///< requests that have left; 0 = none yet, there is no link
   double send_to_latched_s =
       0.0;  ///< robot's latch time minus our send time, through the clock estimate
   double round_trip_s = 0.0;  ///< send -> acknowledgement
@@ -75,7 +75,7 @@ struct StopReport {
 /// A client's lease as the session knows it.
 struct LeaseView {
   bool mine = false;
-  std::uint64_t epoch = 0;  ///< > 0 while mine
+  std::uint64_t epoch = 0;  ///< of the present or, if not mine, the last lease
 };
 
 /// Age of received data: `robot_stamp` converted to station time through the clock estimate.

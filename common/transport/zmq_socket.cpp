@@ -30,6 +30,7 @@ void set(void* socket, int option, T value) {
   KILN_CHECK(rc == 0, option, zmq_strerror(zmq_errno()));
 }
 
+constexpr int kLastWords_ms = 50;
 constexpr int kReconnect_ms = 50;
 constexpr int kReconnectMax_ms = 500;
 
@@ -45,7 +46,9 @@ ZmqContext::~ZmqContext() { zmq_ctx_term(handle_); }
 ZmqSocket::ZmqSocket(ZmqContext& context, SocketKind kind, const SocketOptions& options)
     : handle_(zmq_socket(context.handle(), typeOf(kind))) {
   KILN_CHECK(handle_ != nullptr, zmq_strerror(zmq_errno()));
-  set(handle_, ZMQ_LINGER, 0);
+  // A closing client's last words are its releases: they get a moment. Everything else is dropped
+  // at once.
+  set(handle_, ZMQ_LINGER, kind == SocketKind::Dealer ? kLastWords_ms : 0);
   set(handle_, ZMQ_SNDHWM, options.send_hwm);
   set(handle_, ZMQ_RCVHWM, options.receive_hwm);
   set(handle_, ZMQ_MAXMSGSIZE, options.max_message_bytes);

@@ -35,8 +35,8 @@ struct SocketOptions {
   std::string routing_id;                     ///< Dealer only
 };
 
-/// A non-blocking socket; LINGER is 0, a Dealer queues for living connections only, a Router
-/// reports peers that are gone. Confined to one thread once in use.
+/// A non-blocking socket; LINGER is 0 (50 ms for a Dealer), a Dealer queues for living connections
+/// only, a Router reports peers that are gone. Confined to one thread once in use.
 class ZmqSocket {
  public:
   ZmqSocket(ZmqContext& context, SocketKind kind, const SocketOptions& options);

@@ -1,0 +1,443 @@
+#include "common/client/operator_session.h"
+
+#include <array>
+#include <deque>
+#include <mutex>
+#include <random>
+#include <utility>
+
+#include "common/client/command_tracker.h"
+#include "common/client/hold_stream.h"
+#include "common/client/link_watch.h"
+#include "common/client/topic_dispatch.h"
+#include "common/transport/clock_sync.h"
+#include "common/transport/station_end.h"
+#include "common/transport/stop_lane.h"
+#include "common/wire/command.h"
+
+namespace kiln {
+namespace {
+
+constexpr double kHelloPeriod_s = 0.5;
+constexpr double kHeartbeatPeriod_s = 0.2;
+constexpr double kFirstHeartbeats_s =
+    0.04;  // quick ones after a hello: the clock estimate must not wait
+constexpr int kFirstHeartbeats = 8;
+constexpr double kReportPeriod_s = 0.2;
+
+std::string randomClientId() {
+  std::random_device random;
+  return fmt::format("{:08x}{:08x}", random(), random());
+}
+
+}  // namespace
+
+struct OperatorSession::Impl {
+  Impl(Config c, Callbacks cb, const Clock& station_clock)
+      : config(std::move(c)),
+        callbacks(std::move(cb)),
+        clock(station_clock),
+        client_id(randomClientId()),
+        watch(config.degraded_after_s, config.lost_after_s),
+        tracker(config.ack_timeout_s),
+        holds(config.setpoint_rate_hz, config.hold_ttl_s) {}
+
+  // link thread
+  void onMessage(std::string_view bytes);
+  void onHelloReply(const HelloReply& reply);
+  void onHeartbeat(const Heartbeat& heartbeat);
+  void onAck(const CommandAck& ack);
+  void onPublished(Topic topic, const FrameHeader& header, std::string_view payload,
+                   std::uint64_t lost);
+  void onStatus(const RobotStatus& status);
+  void onTick();
+  void talk(Monotonic::time_point now);
+  void reportLink(Monotonic::time_point now);
+  void setLease(LeaseView view, std::unique_lock<std::mutex>& lock);
+  void bad(const Error& error) {
+    if (callbacks.on_bad_message) callbacks.on_bad_message(error);
+  }
+  // stop thread
+  bool onStopAnswer(std::string_view bytes);
+  void onStopSent();
+
+  // any thread; the mutex is held
+  [[nodiscard]] LinkReport makeReport(Monotonic::time_point now) const;
+  [[nodiscard]] std::optional<Command> makeCommand(CommandBody body);
+  void finishUpdates(std::unique_lock<std::mutex>& lock);
+
+  Config config;
+  Callbacks callbacks;
+  const Clock& clock;
+  const std::string client_id;
+
+  mutable std::mutex mutex;  // guards what follows, up to the ends
+  LinkWatch watch;
+  ClockSync sync;
+  CommandTracker tracker;
+  HoldStream holds;
+  LeaseView lease;
+  StopReport stop_report;
+  StopRequest stop_request;
+  std::uint64_t last_nonce = 0;
+  std::uint64_t heartbeats = 0;
+  int quick_heartbeats = 0;
+  std::optional<Monotonic::time_point> hello_sent, heartbeat_sent, reported;
+  LinkState reported_state = LinkState::Connecting;
+  std::uint64_t bytes_received = 0;
+  std::array<std::uint64_t, kTopicCount> lost{};
+  std::array<std::uint64_t, kTopicCount> robot_dropped{};
+  std::deque<CommandUpdate> updates;  // to be delivered on the link thread
+
+  std::unique_ptr<StationEnd> end;
+  std::unique_ptr<StopClient> stop_client;
+};
+
+Result<std::unique_ptr<OperatorSession>> OperatorSession::open(Config config, Callbacks callbacks,
+                                                               const Clock& clock) {
+  const auto addresses = parseEndpoint(config.endpoint);
+  if (!addresses) return tl::make_unexpected(addresses.error());
+  auto impl = std::make_unique<Impl>(std::move(config), std::move(callbacks), clock);
+  StationEnd::Options options;
+  options.client_id = impl->client_id;
+  options.topics = impl->config.topics;
+  if (options.topics.empty()) {
+    for (const TopicInfo& info : topicTable()) options.topics.push_back(info.topic);
+  }
+  options.faults = {impl->config.up_loss, impl->config.down_loss, impl->config.up_delay_s,
+                    impl->config.fault_seed};
+  auto end = StationEnd::connect(*addresses, std::move(options));
+  if (!end) return tl::make_unexpected(end.error());
+  auto stop_client = StopClient::connect(
+      addresses->stop,
+      {[raw = impl.get()](std::string_view bytes) { return raw->onStopAnswer(bytes); },
+       [raw = impl.get()] { raw->onStopSent(); }});
+  if (!stop_client) return tl::make_unexpected(stop_client.error());
+  impl->stop_client = std::move(*stop_client);
+  impl->end = std::move(*end);
+  impl->end->start(
+      {[raw = impl.get()](std::string_view bytes) { raw->onMessage(bytes); },
+       [raw = impl.get()](Topic topic, const FrameHeader& header, std::string_view payload,
+                          std::uint64_t lost) { raw->onPublished(topic, header, payload, lost); },
+       [raw = impl.get()](std::string reason) {
+         raw->bad({ErrorCode::InvalidInput, std::move(reason)});
+       },
+       [raw = impl.get()] { raw->onTick(); }});
+  return std::unique_ptr<OperatorSession>(new OperatorSession(std::move(impl)));
+}
+
+OperatorSession::OperatorSession(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+
+OperatorSession::~OperatorSession() {
+  const std::lock_guard lock(impl_->mutex);
+  if (!impl_->holds.active()) return;
+  for (int i = 0; i < 3; ++i) {
+    if (const auto zero = impl_->makeCommand(ReleaseAll{}))
+      impl_->end->send(wire::encode(ToRobot{*zero}));
+  }
+}
+
+// --- link thread: what comes in
+// --------------------------------------------------------------------------------------
+
+void OperatorSession::Impl::onMessage(std::string_view bytes) {
+  auto message = wire::decodeToStation(bytes);
+  if (!message) return bad(message.error());
+  {
+    const std::lock_guard lock(mutex);
+    watch.heard(monotonicNow());
+    bytes_received += bytes.size();
+  }
+  if (const auto* reply = std::get_if<HelloReply>(&*message)) return onHelloReply(*reply);
+  if (const auto* heartbeat = std::get_if<Heartbeat>(&*message)) return onHeartbeat(*heartbeat);
+  onAck(std::get<CommandAck>(*message));
+}
+
+void OperatorSession::Impl::onHelloReply(const HelloReply& reply) {
+  {
+    std::unique_lock lock(mutex);
+    if (reply.accepted) {
+      watch.accepted();
+    } else {
+      // A robot that restarted does not know us: whatever we held there is gone.
+      watch.refused(reply.reason);
+      sync.reset();
+      setLease({}, lock);
+    }
+  }
+  if (callbacks.on_hello) callbacks.on_hello(reply);
+}
+
+void OperatorSession::Impl::onHeartbeat(const Heartbeat& heartbeat) {
+  const std::int64_t received_ns = toNanoseconds(clock.now());
+  const std::lock_guard lock(mutex);
+  watch.robotHeardUs(heartbeat.rx_age_s, monotonicNow());
+  if (heartbeat.station_send_ns == 0) return;  // unasked for: no exchange
+  sync.add(heartbeat.station_send_ns, heartbeat.robot_receive_ns, heartbeat.robot_send_ns,
+           received_ns);
+}
+
+void OperatorSession::Impl::onAck(const CommandAck& ack) {
+  if (ack.client_id != client_id) return;
+  std::unique_lock lock(mutex);
+  updates.push_back(tracker.answered(ack, monotonicNow()));
+  if (ack.lease_epoch > 0) setLease({true, ack.lease_epoch}, lock);
+  finishUpdates(lock);
+}
+
+void OperatorSession::Impl::onPublished(Topic topic, const FrameHeader& header,
+                                        std::string_view payload, std::uint64_t lost_now) {
+  Arrival arrival;
+  arrival.received = clock.now();
+  arrival.lost_before = lost_now;
+  {
+    const std::lock_guard lock(mutex);
+    const auto index = static_cast<std::size_t>(topic);
+    watch.heard(monotonicNow());
+    bytes_received += payload.size();
+    lost[index] += lost_now;
+    robot_dropped[index] = header.dropped_before;
+    if (const auto sent = sync.toStation(header.published_ns)) {
+      arrival.latency_s = toSeconds(arrival.received - stampFromNanoseconds(*sent));
+    }
+  }
+  const auto done = dispatch(topic, payload, callbacks, arrival,
+                             [this](const RobotStatus& status) { onStatus(status); });
+  if (!done) bad(done.error());
+}
+
+void OperatorSession::Impl::onStatus(const RobotStatus& status) {
+  std::unique_lock lock(mutex);
+  if (status.lease.epoch < lease.epoch) return;  // older than what an acknowledgement has told us
+  const bool mine = status.lease.holder_client == client_id;
+  setLease({mine, mine ? status.lease.epoch : lease.epoch}, lock);
+}
+
+void OperatorSession::Impl::setLease(LeaseView view, std::unique_lock<std::mutex>& lock) {
+  const bool changed = view.mine != lease.mine || (view.mine && view.epoch != lease.epoch);
+  if (changed && !view.mine) holds.releaseAll();
+  lease = view;
+  if (!changed || !callbacks.on_lease) return;
+  lock.unlock();
+  callbacks.on_lease(view);
+  lock.lock();
+}
+
+// --- link thread: what goes out
+// --------------------------------------------------------------------------------------
+
+void OperatorSession::Impl::onTick() {
+  const auto now = monotonicNow();
+  std::unique_lock lock(mutex);
+  talk(now);
+  for (CommandBody& body : holds.due(now)) {
+    // Without a link the setpoint is not sent, and never later.
+    if (const auto command = makeCommand(std::move(body)))
+      end->send(wire::encode(ToRobot{*command}));
+  }
+  for (CommandUpdate& update : tracker.expire(now)) updates.push_back(std::move(update));
+  finishUpdates(lock);
+  lock.unlock();
+  reportLink(now);
+}
+
+void OperatorSession::Impl::talk(Monotonic::time_point now) {
+  const auto due = [now](const std::optional<Monotonic::time_point>& last, double period_s) {
+    return !last || secondsBetween(*last, now) >= period_s;
+  };
+  const auto rx_age_s = watch.rxAge(now);
+  if (!watch.isAccepted()) {
+    if (!due(hello_sent, kHelloPeriod_s)) return;
+    hello_sent = now;
+    quick_heartbeats = kFirstHeartbeats;
+    end->send(wire::encode(
+        ToRobot{Hello{kProtocolVersion, config.program_version, client_id, config.operator_name,
+                      config.role, config.expected_mission_uuid}}));
+    return;
+  }
+  if (!due(heartbeat_sent, quick_heartbeats > 0 ? kFirstHeartbeats_s : kHeartbeatPeriod_s)) return;
+  heartbeat_sent = now;
+  if (quick_heartbeats > 0) --quick_heartbeats;
+  const auto estimate = sync.estimate();
+  end->send(
+      wire::encode(ToRobot{Heartbeat{++heartbeats, toNanoseconds(clock.now()), 0, 0,
+                                     rx_age_s.value_or(0.0), estimate ? estimate->rtt_s : 0.0}}));
+}
+
+void OperatorSession::Impl::reportLink(Monotonic::time_point now) {
+  LinkReport report;
+  {
+    std::unique_lock lock(mutex);
+    report = makeReport(now);
+    const bool changed = report.state != reported_state;
+    if (!changed && reported && secondsBetween(*reported, now) < kReportPeriod_s) return;
+    reported = now;
+    reported_state = report.state;
+    if (report.state == LinkState::Lost) setLease({}, lock);
+  }
+  if (callbacks.on_link) callbacks.on_link(report);
+}
+
+LinkReport OperatorSession::Impl::makeReport(Monotonic::time_point now) const {
+  LinkReport report;
+  watch.report(now, report);
+  if (const auto estimate = sync.estimate()) {
+    report.clock_known = true;
+    report.clock_offset_s = estimate->offset_s;
+    report.clock_uncertainty_s = estimate->uncertainty_s;
+    report.clock_drift_ppm = estimate->drift_ppm;
+    report.rtt_s = estimate->rtt_s;
+    report.rtt_p95_s = estimate->rtt_p95_s;
+  }
+  report.bytes_received = bytes_received;
+  for (const TopicInfo& info : topicTable()) {
+    const auto index = static_cast<std::size_t>(info.topic);
+    report.drops.push_back({std::string(info.name), lost[index] + robot_dropped[index]});
+  }
+  report.drops.push_back({"commands", end ? end->droppedSends() : 0});
+  return report;
+}
+
+std::optional<Command> OperatorSession::Impl::makeCommand(CommandBody body) {
+  LinkReport report;
+  watch.report(monotonicNow(), report);
+  const auto issued = sync.toRobot(toNanoseconds(clock.now()));
+  if ((report.state != LinkState::Connected && report.state != LinkState::Degraded) || !issued)
+    return std::nullopt;
+  return Command{client_id,
+                 config.operator_name,
+                 ++last_nonce,
+                 lease.mine ? lease.epoch : 0,
+                 stampFromNanoseconds(*issued),
+                 std::move(body)};
+}
+
+void OperatorSession::Impl::finishUpdates(std::unique_lock<std::mutex>& lock) {
+  while (!updates.empty()) {
+    const CommandUpdate update = std::move(updates.front());
+    updates.pop_front();
+    if (!callbacks.on_command) continue;
+    lock.unlock();
+    callbacks.on_command(update);
+    lock.lock();
+  }
+}
+
+// --- stop thread
+// -----------------------------------------------------------------------------------------------------
+
+bool OperatorSession::Impl::onStopAnswer(std::string_view bytes) {
+  const auto ack = wire::decodeStopAck(bytes);
+  if (!ack) {
+    bad(ack.error());
+    return false;
+  }
+  StopReport report;
+  {
+    const std::lock_guard lock(mutex);
+    if (ack->nonce != stop_request.nonce || !ack->latched) return false;
+    stop_report.state = StopReport::State::Latched;
+    stop_report.round_trip_s =
+        static_cast<double>(toNanoseconds(clock.now()) - ack->sent_station_ns) * 1e-9;
+    const auto latched = sync.toStation(ack->latched_robot_ns);
+    stop_report.send_to_latched_s =
+        latched ? static_cast<double>(*latched - ack->sent_station_ns) * 1e-9
+                : stop_report.round_trip_s;
+    report = stop_report;
+  }
+  if (callbacks.on_stop) callbacks.on_stop(report);
+  return true;
+}
+
+void OperatorSession::Impl::onStopSent() {
+  StopReport report;
+  {
+    const std::lock_guard lock(mutex);
+    ++stop_report.repetitions;
+    report = stop_report;
+  }
+  if (callbacks.on_stop) callbacks.on_stop(report);
+}
+
+// --- any thread
+// ------------------------------------------------------------------------------------------------------
+
+std::uint64_t OperatorSession::send(CommandBody body) {
+  const auto now = monotonicNow();
+  const std::lock_guard lock(impl_->mutex);
+  const auto command = impl_->makeCommand(body);
+  if (command && impl_->end->send(wire::encode(ToRobot{*command}))) {
+    impl_->updates.push_back(impl_->tracker.sent(command->nonce, command->body, now));
+    return command->nonce;
+  }
+  LinkReport report = impl_->makeReport(now);
+  CommandUpdate update;
+  update.nonce = command ? command->nonce : ++impl_->last_nonce;
+  update.command = commandName(body);
+  update.state = CommandState::Refused;
+  update.code = "no_link";
+  update.reason = fmt::format("not sent: {}", report.reason.empty()
+                                                  ? "the clock offset is not known yet; try again"
+                                                  : report.reason);
+  impl_->updates.push_back(update);
+  return update.nonce;
+}
+
+void OperatorSession::hold(CommandBody setpoint) {
+  const std::lock_guard lock(impl_->mutex);
+  impl_->holds.hold(std::move(setpoint), monotonicNow());
+}
+
+void OperatorSession::release(const CommandBody& example) {
+  const std::lock_guard lock(impl_->mutex);
+  impl_->holds.release(example);
+}
+
+void OperatorSession::releaseAll() {
+  const std::lock_guard lock(impl_->mutex);
+  impl_->holds.releaseAll();
+}
+
+void OperatorSession::stop() {
+  StopRequest request;
+  {
+    const std::lock_guard lock(impl_->mutex);
+    impl_->holds.releaseAll();
+    request = {impl_->client_id, impl_->config.operator_name, impl_->stop_request.nonce + 1,
+               toNanoseconds(impl_->clock.now())};
+    impl_->stop_request = request;
+    impl_->stop_report = {StopReport::State::Sent, 0, 0.0, 0.0};
+  }
+  impl_->stop_client->request(wire::encode(request));
+}
+
+const std::string& OperatorSession::clientId() const { return impl_->client_id; }
+
+LinkReport OperatorSession::link() const {
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->makeReport(monotonicNow());
+}
+
+LeaseView OperatorSession::lease() const {
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->lease;
+}
+
+StopReport OperatorSession::stopReport() const {
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->stop_report;
+}
+
+std::optional<Stamp> OperatorSession::toStationTime(Stamp robot) const {
+  const std::lock_guard lock(impl_->mutex);
+  const auto ns = impl_->sync.toStation(toNanoseconds(robot));
+  return ns ? std::optional(stampFromNanoseconds(*ns)) : std::nullopt;
+}
+
+std::optional<Stamp> OperatorSession::toRobotTime(Stamp station) const {
+  const std::lock_guard lock(impl_->mutex);
+  const auto ns = impl_->sync.toRobot(toNanoseconds(station));
+  return ns ? std::optional(stampFromNanoseconds(*ns)) : std::nullopt;
+}
+
+}  // namespace kiln
