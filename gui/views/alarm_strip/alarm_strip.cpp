@@ -1,0 +1,143 @@
+#include "gui/views/alarm_strip/alarm_strip.h"
+
+#include <QFontMetrics>
+#include <QHBoxLayout>
+#include <QPainter>
+
+namespace kiln::gui {
+
+namespace {
+constexpr int kHeight_px = 36;
+constexpr int kText_px = 34;
+
+QString levelWord(AlarmLevel level) {
+  switch (level) {
+    case AlarmLevel::Advisory:
+      return QObject::tr("Note");
+    case AlarmLevel::Caution:
+      return QObject::tr("Caution");
+    case AlarmLevel::Warning:
+      return QObject::tr("WARNING");
+  }
+  return {};
+}
+}  // namespace
+
+AlarmStrip::AlarmStrip(const Ui& ui, StationModels& models, QWidget* parent)
+    : QWidget(parent),
+      ui_(ui),
+      models_(models),
+      acknowledge_(new ActButton(ui, tr("Acknowledge"), this)),
+      log_(new ActButton(ui, tr("Event log"), this)) {
+  setFixedHeight(kHeight_px);
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(0, 3, 4, 3);
+  row->setSpacing(6);
+  row->addStretch(1);
+  for (ActButton* button : {acknowledge_, log_}) {
+    button->setFixedSize(112, kHeight_px - 6);
+    row->addWidget(button);
+  }
+  log_->setToolTip(tr("Show or hide the event log (L)"));
+  connect(acknowledge_, &QAbstractButton::clicked, this, [this] {
+    if (const auto* top = models_.alarms.top())
+      models_.alarms.acknowledge(QString::fromStdString(top->alarm.id));
+  });
+  connect(log_, &QAbstractButton::clicked, this, &AlarmStrip::logRequested);
+  connect(&models_.alarms, &Model::changed, this, &AlarmStrip::refresh);
+  connect(&ui_.theme, &Theme::changed, this, qOverload<>(&QWidget::update));
+  refresh();
+}
+
+QString AlarmStrip::text() const {
+  const auto* top = models_.alarms.top();
+  if (!top) return {};
+  QString text = QString::fromStdString(top->alarm.text);
+  if (!top->alarm.action.empty())
+    text += QStringLiteral(": ") + QString::fromStdString(top->alarm.action);
+  if (!top->alarm.active) text += tr(" (over)");
+  return text;
+}
+
+QString AlarmStrip::summary() const {
+  const int active = models_.alarms.activeCount();
+  const int open = models_.alarms.unacknowledgedCount();
+  if (active == 0 && open == 0) return {};
+  QString text = tr("%1 active").arg(active);
+  if (open > 1) text += tr(" · %1 to acknowledge").arg(open);
+  const auto* first = models_.alarms.firstOut();
+  if (first && first != models_.alarms.top())
+    text += tr(" · first: %1").arg(QString::fromStdString(first->alarm.text));
+  return text;
+}
+
+void AlarmStrip::refresh() {
+  acknowledge_->setVisible(models_.alarms.top() != nullptr);
+  setToolTip(text());
+  update();
+}
+
+void AlarmStrip::paintLevel(QPainter& painter, const QRectF& area, AlarmLevel level,
+                            const QColor& color) const {
+  const QPointF c = area.center();
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(color);
+  switch (level) {
+    case AlarmLevel::Warning:
+      painter.drawPolygon(QPolygonF() << c + QPointF(0, -8) << c + QPointF(8, 0)
+                                      << c + QPointF(0, 8) << c + QPointF(-8, 0));
+      break;
+    case AlarmLevel::Caution:
+      painter.drawPolygon(QPolygonF()
+                          << c + QPointF(0, -7) << c + QPointF(8, 6) << c + QPointF(-8, 6));
+      break;
+    case AlarmLevel::Advisory:
+      painter.drawEllipse(c, 5, 5);
+      break;
+  }
+}
+
+void AlarmStrip::paintEvent(QPaintEvent*) {
+  const Palette& p = ui_.theme.colors();
+  QPainter painter(this);
+  painter.setRenderHint(QPainter::Antialiasing);
+  const auto* top = models_.alarms.top();
+  const AlarmLevel level = top ? top->alarm.level : AlarmLevel::Advisory;
+  const bool warning = top && level == AlarmLevel::Warning;
+  const bool caution = top && level == AlarmLevel::Caution;
+  painter.setPen(QPen(warning ? p.fault : p.border, 1));
+  painter.setBrush(warning ? p.fault_fill : caution ? p.caution_fill : p.panel);
+  painter.drawRoundedRect(QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5), 4, 4);
+  const int right = (top ? acknowledge_ : log_)->x() - 10;
+  const QFont small = ui_.theme.font(TextRole::Small);
+  const QString note = summary();
+  const int note_width = std::min(QFontMetrics(small).horizontalAdvance(note), width() / 3);
+  painter.setFont(small);
+  painter.setPen(top ? p.text : p.dim);
+  painter.drawText(QRect(right - note_width, 0, note_width, height()),
+                   Qt::AlignVCenter | Qt::AlignRight,
+                   QFontMetrics(small).elidedText(note, Qt::ElideRight, note_width));
+  if (!top) {
+    painter.drawText(
+        QRect(12, 0, right, height()), Qt::AlignVCenter | Qt::AlignLeft,
+        models_.alarms.activeCount() > 0 ? tr("Every alarm is acknowledged") : tr("No alarms"));
+    return;
+  }
+  const QColor color = warning ? p.fault : caution ? p.caution : p.text;
+  painter.fillRect(QRectF(1, 1, 5, height() - 2), color);
+  paintLevel(painter, QRectF(11, 0, 18, height()), level, color);
+  const QFont strong = ui_.theme.font(TextRole::Strong);
+  const QFont body = ui_.theme.font(TextRole::Body);
+  painter.setFont(strong);
+  painter.setPen(color);
+  const QString word = levelWord(level);
+  painter.drawText(QRect(kText_px, 0, 200, height()), Qt::AlignVCenter | Qt::AlignLeft, word);
+  const int x = kText_px + QFontMetrics(strong).horizontalAdvance(word) + 10;
+  const int room = right - note_width - 16 - x;
+  painter.setFont(body);
+  painter.setPen(p.text);
+  painter.drawText(QRect(x, 0, room, height()), Qt::AlignVCenter | Qt::AlignLeft,
+                   QFontMetrics(body).elidedText(text(), Qt::ElideRight, room));
+}
+
+}  // namespace kiln::gui

@@ -1,0 +1,192 @@
+#include "gui/views/fsm_graph/graph_view.h"
+
+#include <QHelpEvent>
+#include <QMouseEvent>
+#include <QPainter>
+#include <QToolTip>
+#include <algorithm>
+#include <cmath>
+
+#include "gui/views/fsm_graph/graph_painter.h"
+
+namespace kiln::gui {
+
+namespace {
+constexpr double kZoomStep = 1.15;
+constexpr double kMinZoom = 0.6;
+constexpr double kMaxZoom = 3.0;
+constexpr double kDragStart_px = 4.0;
+}  // namespace
+
+GraphView::GraphView(const Ui& ui, StationModels& models, ForcedJump& jump, QWidget* parent)
+    : QWidget(parent), ui_(ui), models_(models), jump_(jump) {
+  setMouseTracking(true);
+  setAccessibleName(tr("State graph"));
+  const auto repaint = qOverload<>(&QWidget::update);
+  connect(&models_.fsm, &FsmModel::missionChanged, this, &GraphView::relayout);
+  connect(&models_.fsm, &FsmModel::stateEntered, this, &GraphView::showCurrent);
+  connect(&models_.fsm, &Model::changed, this, repaint);
+  connect(&models_, &StationModels::aged, this, repaint);
+  connect(&jump_, &ForcedJump::changed, this, repaint);
+  connect(&ui_.theme, &Theme::changed, this, repaint);
+  relayout();
+}
+
+void GraphView::relayout() {
+  layout_ = models_.fsm.info() ? layoutGraph(*models_.fsm.info()) : GraphLayout{};
+  geometry_ = GraphGeometry(layout_, size());
+  fit();
+}
+
+void GraphView::fit() {
+  zoom_ = 1.0;
+  offset_ = {};
+  keepInside();
+  showCurrent();
+  update();
+}
+
+QString GraphView::search(const QString& text) {
+  search_ = text;
+  update();
+  if (text.isEmpty()) return {};
+  QString best;
+  for (const GraphLayout::Node& node : layout_.nodes) {
+    const QString label = models_.fsm.label(node.name);
+    if (label.startsWith(text, Qt::CaseInsensitive)) return node.name;
+    if (best.isEmpty() && label.contains(text, Qt::CaseInsensitive)) best = node.name;
+  }
+  return best;
+}
+
+std::optional<QRectF> GraphView::nodeRect(const QString& name) const {
+  const int i = layout_.index.value(name, -1);
+  if (i < 0) return std::nullopt;
+  const QRectF& box = geometry_.nodes()[static_cast<std::size_t>(i)];
+  return QRectF(box.topLeft() * zoom_ + offset_, box.size() * zoom_);
+}
+
+QString GraphView::nodeAt(const QPointF& position) const {
+  const QPointF p = (position - offset_) / zoom_;
+  for (std::size_t i = 0; i < layout_.nodes.size(); ++i) {
+    if (geometry_.nodes()[i].contains(p)) return layout_.nodes[i].name;
+  }
+  return {};
+}
+
+void GraphView::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  if (layout_.nodes.empty()) {
+    painter.setPen(ui_.theme.colors().faint);
+    painter.setFont(ui_.theme.font(TextRole::Body));
+    painter.drawText(rect(), Qt::AlignCenter, tr("waiting for the mission's graph"));
+    return;
+  }
+  painter.translate(offset_);
+  painter.scale(zoom_, zoom_);
+  GraphPainter(painter, {ui_.theme, models_, jump_, layout_, geometry_, search_, hover_}).paint();
+}
+
+void GraphView::resizeEvent(QResizeEvent*) {
+  geometry_ = GraphGeometry(layout_, size());
+  keepInside();
+  showCurrent();
+}
+
+void GraphView::keepInside() {
+  const QSizeF content = geometry_.size() * zoom_;
+  const auto limit = [](double offset, double room, double length) {
+    return length <= room ? (room - length) / 2 : std::clamp(offset, room - length, 0.0);
+  };
+  offset_ = {limit(offset_.x(), width(), content.width()),
+             content.height() <= height() ? 0.0 : limit(offset_.y(), height(), content.height())};
+}
+
+void GraphView::showCurrent() {
+  const auto box = nodeRect(models_.fsm.current());
+  if (!box) return;
+  const QRectF room = QRectF(rect()).adjusted(4, 4, -4, -4);
+  if (room.contains(*box)) return;
+  if (box->bottom() > room.bottom()) offset_.ry() -= box->bottom() - room.bottom() + 20;
+  if (box->top() < room.top()) offset_.ry() += room.top() - box->top() + 20;
+  if (box->right() > room.right()) offset_.rx() -= box->right() - room.right() + 20;
+  if (box->left() < room.left()) offset_.rx() += room.left() - box->left() + 20;
+  keepInside();
+  update();
+}
+
+void GraphView::wheelEvent(QWheelEvent* event) {
+  const double before = zoom_;
+  zoom_ =
+      std::clamp(zoom_ * std::pow(kZoomStep, event->angleDelta().y() / 120.0), kMinZoom, kMaxZoom);
+  const QPointF at = event->position();
+  offset_ = at - (at - offset_) * (zoom_ / before);
+  keepInside();
+  update();
+}
+
+void GraphView::mousePressEvent(QMouseEvent* event) {
+  pressed_ = event->button() == Qt::LeftButton;
+  dragging_ = false;
+  drag_from_ = event->pos();
+}
+
+void GraphView::mouseMoveEvent(QMouseEvent* event) {
+  const QPointF at = event->pos();
+  const QString over = nodeAt(at);
+  if (over != hover_) {
+    hover_ = over;
+    update();
+  }
+  if (!pressed_) return;
+  const QPointF moved = at - drag_from_;
+  if (!dragging_ && std::hypot(moved.x(), moved.y()) < kDragStart_px) return;
+  dragging_ = true;
+  offset_ += moved;
+  drag_from_ = at;
+  keepInside();
+  update();
+}
+
+void GraphView::mouseReleaseEvent(QMouseEvent* event) {
+  if (pressed_ && !dragging_) {
+    const QString name = nodeAt(event->pos());
+    if (!name.isEmpty()) emit nodeClicked(name);
+  }
+  pressed_ = dragging_ = false;
+}
+
+void GraphView::mouseDoubleClickEvent(QMouseEvent* event) {
+  if (nodeAt(event->pos()).isEmpty()) fit();
+}
+
+QString GraphView::tipFor(const QString& name) const {
+  const FsmStateInfo* state = models_.fsm.state(name);
+  if (!state) return {};
+  QString tip = QStringLiteral("<b>%1</b> %2")
+                    .arg(models_.fsm.label(name), QString::fromStdString(state->doc));
+  if (state->time_limit_s > 0) {
+    tip += tr("<br>time limit %1 s, then %2")
+               .arg(state->time_limit_s)
+               .arg(models_.fsm.label(QString::fromStdString(state->timeout_target)));
+  }
+  const FsmModel::StateRecord record = models_.fsm.record(name);
+  if (record.visits > 1)
+    tip += tr("<br>%1 visits, %2 s in all").arg(record.visits).arg(record.total_s, 0, 'f', 1);
+  QString why;
+  if (!jump_.enterable(name, &why)) tip += QStringLiteral("<br>%1").arg(why);
+  return tip;
+}
+
+bool GraphView::event(QEvent* event) {
+  if (event->type() != QEvent::ToolTip) return QWidget::event(event);
+  const auto* help = static_cast<QHelpEvent*>(event);
+  const QString tip = tipFor(nodeAt(help->pos()));
+  if (tip.isEmpty())
+    QToolTip::hideText();
+  else
+    QToolTip::showText(help->globalPos(), tip, this);
+  return true;
+}
+
+}  // namespace kiln::gui

@@ -1,0 +1,140 @@
+#include "gui/views/fsm_graph/jump_panel.h"
+
+#include <QHBoxLayout>
+#include <QVBoxLayout>
+#include <cmath>
+
+namespace kiln::gui {
+
+namespace {
+constexpr int kButton_px = 46;
+constexpr double kHold_s = 1.0;
+}  // namespace
+
+JumpPanel::JumpPanel(const Ui& ui, StationModels& models, ForcedJump& jump, QWidget* parent)
+    : QWidget(parent),
+      ui_(ui),
+      models_(models),
+      jump_(jump),
+      rows_(new QStackedWidget(this)),
+      start_(new HoldButton(ui, tr("Start mission"), kHold_s)),
+      pause_(new ActButton(ui, tr("Pause"))),
+      arm_(new HoldButton(ui, tr("Arm forced jump"), kHold_s)),
+      card_(new QLabel),
+      confirm_(new HoldButton(ui, tr("Jump"), kHold_s)),
+      cancel_(new ActButton(ui, tr("Cancel"))),
+      message_(new QLabel) {
+  start_->setKind(ActKind::Primary);
+  start_->setSubtext(tr("hold 1 s"));
+  arm_->setKind(ActKind::Forced);
+  arm_->setSubtext(tr("hold 1 s, then pick a state"));
+  confirm_->setKind(ActKind::Forced);
+  confirm_->setSubtext(tr("hold 1 s"));
+  cancel_->setSubtext(tr("Esc"));
+  card_->setWordWrap(true);
+  message_->setWordWrap(true);
+  message_->setAlignment(Qt::AlignLeft | Qt::AlignVCenter);
+  for (ActButton* button : {static_cast<ActButton*>(start_), pause_, static_cast<ActButton*>(arm_),
+                            static_cast<ActButton*>(confirm_), cancel_}) {
+    button->setFixedHeight(kButton_px);
+  }
+  auto* calm = new QWidget;
+  auto* calm_row = new QHBoxLayout(calm);
+  calm_row->setContentsMargins(0, 0, 0, 0);
+  calm_row->setSpacing(8);
+  calm_row->addWidget(start_, 1);
+  calm_row->addWidget(pause_, 1);
+  calm_row->addWidget(arm_, 1);
+  auto* asking = new QWidget;
+  auto* asking_row = new QHBoxLayout(asking);
+  asking_row->setContentsMargins(0, 0, 0, 0);
+  asking_row->setSpacing(8);
+  asking_row->addWidget(confirm_, 1);
+  asking_row->addWidget(cancel_, 1);
+  rows_->addWidget(calm);
+  rows_->addWidget(asking);
+  rows_->setFixedHeight(kButton_px);
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(6);
+  column->addWidget(card_);
+  column->addWidget(message_);
+  column->addWidget(rows_);
+
+  connect(start_, &HoldButton::completed, this,
+          [this] { models_.commands.send(StartMission{}, tr("start the mission")); });
+  connect(pause_, &QAbstractButton::clicked, this, &JumpPanel::pauseOrResume);
+  connect(arm_, &HoldButton::completed, &jump_, &ForcedJump::arm);
+  connect(confirm_, &HoldButton::completed, &jump_, &ForcedJump::confirm);
+  connect(cancel_, &QAbstractButton::clicked, this, [this] { jump_.cancel(); });
+  connect(&jump_, &ForcedJump::changed, this, &JumpPanel::refresh);
+  for (const Model* model :
+       {static_cast<const Model*>(&models_.status), static_cast<const Model*>(&models_.lease),
+        static_cast<const Model*>(&models_.fsm), static_cast<const Model*>(&models_.stop)}) {
+    connect(model, &Model::changed, this, &JumpPanel::refreshMission);
+  }
+  connect(&models_, &StationModels::aged, this, &JumpPanel::refreshMission);
+  connect(&ui_.theme, &Theme::changed, this, &JumpPanel::refresh);
+  refresh();
+  refreshMission();
+}
+
+void JumpPanel::refreshMission() {
+  QString why;
+  const bool may = models_.mayCommand(&why);
+  const FsmStatus* fsm = models_.fsm.status();
+  const bool running = fsm && fsm->running;
+  const bool paused = fsm && fsm->paused;
+  start_->setVisible(!running);
+  pause_->setVisible(running);
+  start_->setEnabled(may && models_.status.word() == StatusWord::Ready);
+  pause_->setEnabled(may);
+  arm_->setEnabled(may);
+  pause_->setText(paused ? tr("Resume mission") : tr("Pause"));
+  pause_->setSubtext(paused ? tr("goes on from here") : tr("into a safe pose"));
+  pause_->setKind(paused ? ActKind::Primary : ActKind::Normal);
+  start_->setToolTip(may ? tr("The robot begins to drive.") : why);
+  pause_->setToolTip(why);
+  arm_->setToolTip(may ? tr("Choose the next state yourself.") : why);
+}
+
+void JumpPanel::refresh() {
+  const Palette& p = ui_.theme.colors();
+  const ForcedJump::Phase phase = jump_.phase();
+  const bool picked = phase == ForcedJump::Phase::Picked;
+  const bool asking = picked || phase == ForcedJump::Phase::Armed;
+  if (asking != (rows_->currentIndex() == 1)) rows_->setCurrentIndex(asking ? 1 : 0);
+  confirm_->setEnabled(picked);
+  confirm_->setText(picked ? tr("Jump to %1").arg(models_.fsm.label(jump_.target()))
+                           : tr("pick a state above"));
+  cancel_->setSubtext(asking ? tr("Esc · %1 s").arg(std::ceil(jump_.leftS()), 0, 'f', 0)
+                             : tr("Esc"));
+  card_->setVisible(picked);
+  if (picked) {
+    card_->setText(tr("Leave <b>%1</b>, enter <b>%2</b><br>%3")
+                       .arg(models_.fsm.label(jump_.from()), models_.fsm.label(jump_.target()),
+                            jump_.consequence()));
+  }
+  card_->setFont(ui_.theme.font(TextRole::Body));
+  card_->setStyleSheet(
+      QStringLiteral(
+          "color: %1; background: %2; border: 1px solid %3; border-radius: 3px; padding: 6px;")
+          .arg(p.text.name(), p.forced_fill.name(), p.forced.name()));
+  const QString text =
+      phase == ForcedJump::Phase::Sent ? tr("sent, waiting for the robot …") : jump_.message();
+  message_->setVisible(!text.isEmpty());
+  message_->setText((jump_.failed() ? QStringLiteral("✕ ") : QString{}) + text);
+  message_->setFont(ui_.theme.font(TextRole::Small));
+  message_->setStyleSheet(
+      QStringLiteral("color: %1").arg((jump_.failed() ? p.caution : p.text).name()));
+}
+
+void JumpPanel::pauseOrResume() {
+  const FsmStatus* fsm = models_.fsm.status();
+  if (fsm && fsm->paused)
+    models_.commands.send(Resume{}, tr("resume"));
+  else
+    models_.commands.send(Pause{}, tr("pause"));
+}
+
+}  // namespace kiln::gui

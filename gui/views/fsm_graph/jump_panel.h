@@ -1,0 +1,41 @@
+#pragma once
+
+#include <QLabel>
+#include <QStackedWidget>
+
+#include "gui/models/forced_jump.h"
+#include "gui/models/station_models.h"
+#include "gui/widgets/hold_button.h"
+
+namespace kiln::gui {
+
+/// The two rows under the graph: start / pause / resume, and the forced jump from arming to the
+/// robot's answer. The hold that jumps stands where "Pause" was, never under the button that armed
+/// it.
+class JumpPanel : public QWidget {
+  Q_OBJECT
+ public:
+  JumpPanel(const Ui& ui, StationModels& models, ForcedJump& jump, QWidget* parent = nullptr);
+  [[nodiscard]] HoldButton* armButton() const { return arm_; }
+  [[nodiscard]] HoldButton* jumpButton() const { return confirm_; }
+  [[nodiscard]] HoldButton* startButton() const { return start_; }
+  [[nodiscard]] ActButton* pauseButton() const { return pause_; }
+
+ private:
+  void refresh();
+  void refreshMission();
+  void pauseOrResume();
+  Ui ui_;
+  StationModels& models_;
+  ForcedJump& jump_;
+  QStackedWidget* rows_;
+  HoldButton* start_;
+  ActButton* pause_;
+  HoldButton* arm_;
+  QLabel* card_;
+  HoldButton* confirm_;
+  ActButton* cancel_;
+  QLabel* message_;
+};
+
+}  // namespace kiln::gui

@@ -1,0 +1,191 @@
+#include "gui/views/state_card/state_card.h"
+
+#include <QGridLayout>
+#include <QVBoxLayout>
+
+namespace kiln::gui {
+
+namespace {
+constexpr int kMaxExits = 4;
+constexpr double kInputAmber_s = 0.5;
+constexpr double kInputRed_s = 2.0;
+constexpr double kInputShown_s = 0.005;
+
+bool needsRelease(ArmSafetyMode mode) { return mode == ArmSafetyMode::ProtectiveStop; }
+}  // namespace
+
+StateCard::StateCard(const Ui& ui, StationModels& models, ForcedJump& jump, QWidget* parent)
+    : Tile(ui, tr("State"), parent),
+      ui_(ui),
+      models_(models),
+      jump_(jump),
+      notice_(new QLabel),
+      display_(new QLabel),
+      ticks_(new TickList(ui)),
+      release_(new HoldButton(ui, tr("Release protective stop"), 1.0)),
+      exits_title_(new QLabel(tr("Go to instead"))),
+      exits_grid_(new QGridLayout) {
+  auto* body = new QWidget;
+  auto* column = new QVBoxLayout(body);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(6);
+  release_->setKind(ActKind::Caution);
+  release_->setSubtext(tr("hold 1 s; the arm stays where it is"));
+  notice_->setWordWrap(true);
+  display_->setWordWrap(true);
+  exits_grid_->setContentsMargins(0, 0, 0, 0);
+  exits_grid_->setSpacing(6);
+  column->addWidget(notice_);
+  column->addWidget(release_);
+  column->addWidget(display_);
+  column->addWidget(ticks_);
+  column->addStretch(1);
+  column->addWidget(exits_title_);
+  column->addLayout(exits_grid_);
+  setContent(body);
+  connect(release_, &HoldButton::completed, this, [this] {
+    models_.commands.send(ReleaseProtectiveStop{}, tr("release the protective stop"));
+  });
+  connect(&models_.fsm, &Model::changed, this, &StateCard::refresh);
+  connect(&models_.status, &Model::changed, this, &StateCard::refresh);
+  connect(&models_.lease, &Model::changed, this, &StateCard::refresh);
+  connect(&models_, &StationModels::aged, this, &StateCard::refresh);
+  connect(&ui_.theme, &Theme::changed, this, &StateCard::refresh);
+  refresh();
+}
+
+std::vector<TickList::Row> StateCard::guardRows(const FsmStatus& fsm) const {
+  std::vector<TickList::Row> rows;
+  for (const GuardStatus& guard : fsm.guards) {
+    TickList::Row row;
+    const bool never = guard.input_age_s < 0;
+    row.mark = guard.met ? TickList::Mark::Met
+               : never   ? TickList::Mark::Attention
+                         : TickList::Mark::Waiting;
+    row.name = QString::fromStdString(guard.name);
+    row.detail = QString::fromStdString(guard.detail);
+    if (!never && guard.input_age_s >= kInputAmber_s) {
+      row.level = guard.input_age_s >= kInputRed_s ? AgeLevel::Red : AgeLevel::Amber;
+      row.mark = TickList::Mark::Attention;
+    }
+    if (guard.input_age_s >= kInputShown_s) {
+      row.detail += (row.detail.isEmpty() ? QString{} : QStringLiteral(" · ")) +
+                    tr("%1 ago").arg(ageText(guard.input_age_s));
+    } else if (never && row.detail.isEmpty()) {
+      row.detail = tr("no input yet");
+    }
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+std::vector<TickList::Row> StateCard::checkRows(const RobotStatus& status) const {
+  std::vector<TickList::Row> rows;
+  for (const Check& check : status.checks) {
+    rows.push_back({check.ok ? TickList::Mark::Met : TickList::Mark::Attention,
+                    QString::fromStdString(check.name), QString::fromStdString(check.detail),
+                    AgeLevel::Fresh});
+  }
+  return rows;
+}
+
+void StateCard::refreshHeader(const FsmStatus& fsm) {
+  setTitle(models_.fsm.label(models_.fsm.current()));
+  const double in_state_s = models_.fsm.timeInStateS();
+  const FsmStateInfo* state = models_.fsm.state(models_.fsm.current());
+  if (fsm.terminal) {
+    setInfo(fsm.success ? tr("mission succeeded") : tr("mission ended without success"));
+  } else if (state && state->time_limit_s > 0) {
+    setInfo(
+        tr("in state %1 s of %2 s").arg(in_state_s, 0, 'f', 1).arg(state->time_limit_s, 0, 'f', 0));
+  } else {
+    setInfo(tr("in state %1 s").arg(in_state_s, 0, 'f', 1));
+  }
+}
+
+void StateCard::refreshNotice() {
+  const Palette& p = ui_.theme.colors();
+  const RobotStatus* status = models_.status.status();
+  const FsmStatus* fsm = models_.fsm.status();
+  QString text;
+  bool fault = false;
+  if (status && models_.status.word() == StatusWord::Stopped) {
+    text = tr("<b>Stopped</b>: %1. %2")
+               .arg(QString::fromStdString(status->stop.source), status->stop.standstill_proven
+                                                                     ? tr("Standstill is proven.")
+                                                                     : tr("Coming to rest …"));
+    fault = true;
+  } else if (status && needsRelease(status->arm.safety)) {
+    text = tr("<b>Protective stop of the arm.</b> Look at the arm, then release it.");
+    fault = true;
+  } else if (fsm && !fsm->blocked.empty()) {
+    text = tr("<b>Mission blocked</b>: %1").arg(QString::fromStdString(fsm->blocked));
+  } else if (fsm && fsm->paused && status && status->word == StatusWord::Paused) {
+    text = tr("<b>Paused.</b> The robot holds; the state's clock stands.");
+  }
+  notice_->setVisible(!text.isEmpty());
+  notice_->setText(text);
+  notice_->setFont(ui_.theme.font(TextRole::Body));
+  notice_->setStyleSheet(
+      QStringLiteral("color: %1; background: %2; border-left: 4px solid %3; padding: 5px 8px;")
+          .arg(p.text.name(), (fault ? p.fault_fill : p.caution_fill).name(),
+               (fault ? p.fault : p.caution).name()));
+  release_->setVisible(status && needsRelease(status->arm.safety));
+  release_->setEnabled(models_.mayCommand());
+}
+
+void StateCard::refresh() {
+  setAge(models_.fsm.ageS(), models_.fsm.ageLevel());
+  const FsmStatus* fsm = models_.fsm.status();
+  const RobotStatus* status = models_.status.status();
+  refreshNotice();
+  const bool not_ready = status && models_.status.word() == StatusWord::NotReady;
+  if (fsm) refreshHeader(*fsm);
+  if (not_ready) setInfo(tr("checks before a start"));
+  ticks_->setRows(not_ready ? checkRows(*status)
+                  : fsm     ? guardRows(*fsm)
+                            : std::vector<TickList::Row>{});
+  const QString display = fsm ? QString::fromStdString(fsm->display_text) : QString{};
+  display_->setText(display);
+  display_->setVisible(!display.isEmpty());
+  display_->setFont(ui_.theme.font(TextRole::Body));
+  display_->setStyleSheet(QStringLiteral("color: %1").arg(ui_.theme.colors().text.name()));
+  exits_title_->setFont(ui_.theme.font(TextRole::Small));
+  exits_title_->setStyleSheet(QStringLiteral("color: %1").arg(ui_.theme.colors().dim.name()));
+  refreshExits();
+}
+
+void StateCard::refreshExits() {
+  const QString current = models_.fsm.current();
+  const FsmInfo* info = models_.fsm.info();
+  const QString key = (info ? QString::fromStdString(info->mission_uuid) : QString{}) + current;
+  if (key != exits_of_) {
+    exits_of_ = key;
+    for (ActButton* button : exits_) button->deleteLater();
+    exits_.clear();
+    for (std::size_t i = 0; info && i < info->edges.size(); ++i) {
+      const FsmEdgeInfo& edge = info->edges[i];
+      if (QString::fromStdString(edge.from) != current ||
+          static_cast<int>(exits_.size()) == kMaxExits)
+        continue;
+      const QString to = QString::fromStdString(edge.to);
+      if (!jump_.enterable(to)) continue;
+      auto* button = new ActButton(ui_, models_.fsm.label(to));
+      button->setSubtext(QString::fromStdString(edge.consequence));
+      connect(button, &QAbstractButton::clicked, this, [this, to] { jump_.pick(to); });
+      const int n = static_cast<int>(exits_.size());
+      exits_grid_->addWidget(button, n / 2, n % 2);
+      exits_.push_back(button);
+    }
+  }
+  QString why;
+  const bool may = models_.mayCommand(&why);
+  for (ActButton* button : exits_) {
+    button->setEnabled(may);
+    button->setToolTip(may ? tr("%1\nThen hold to jump, below the graph.").arg(button->subtext())
+                           : why);
+  }
+  exits_title_->setVisible(!exits_.empty());
+}
+
+}  // namespace kiln::gui

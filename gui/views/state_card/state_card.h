@@ -1,0 +1,47 @@
+#pragma once
+
+#include <QLabel>
+#include <vector>
+
+#include "gui/models/forced_jump.h"
+#include "gui/models/station_models.h"
+#include "gui/views/state_card/tick_list.h"
+#include "gui/widgets/hold_button.h"
+#include "gui/widgets/tile.h"
+
+class QGridLayout;
+
+namespace kiln::gui {
+
+/// What the robot does now and why it waits: time in state, guards with the ages of their inputs,
+/// the ways out as buttons (each through the forced jump's hold). NOT READY shows the failing
+/// checks; a protective stop shows its release.
+class StateCard : public Tile {
+  Q_OBJECT
+ public:
+  StateCard(const Ui& ui, StationModels& models, ForcedJump& jump, QWidget* parent = nullptr);
+  [[nodiscard]] TickList* ticks() const { return ticks_; }
+  [[nodiscard]] HoldButton* protectiveRelease() const { return release_; }
+  [[nodiscard]] const std::vector<ActButton*>& exits() const { return exits_; }
+
+ private:
+  void refresh();
+  void refreshHeader(const FsmStatus& fsm);
+  void refreshNotice();
+  void refreshExits();
+  [[nodiscard]] std::vector<TickList::Row> guardRows(const FsmStatus& fsm) const;
+  [[nodiscard]] std::vector<TickList::Row> checkRows(const RobotStatus& status) const;
+  Ui ui_;
+  StationModels& models_;
+  ForcedJump& jump_;
+  QLabel* notice_;
+  QLabel* display_;
+  TickList* ticks_;
+  HoldButton* release_;
+  QLabel* exits_title_;
+  QGridLayout* exits_grid_;
+  std::vector<ActButton*> exits_;
+  QString exits_of_;
+};
+
+}  // namespace kiln::gui

@@ -1,0 +1,90 @@
+#include "gui/views/top_bar/lease_chip.h"
+
+#include <QFontMetrics>
+#include <QHBoxLayout>
+#include <QPainter>
+
+namespace kiln::gui {
+
+namespace {
+constexpr int kText_px = 124;
+constexpr int kHeight_px = 30;
+}  // namespace
+
+LeaseChip::LeaseChip(const Ui& ui, LeaseModel& lease, QWidget* parent)
+    : QWidget(parent), ui_(ui), lease_(lease), button_(new ActButton(ui, tr("Request"), this)) {
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(kText_px, 0, 0, 0);
+  row->addWidget(button_);
+  button_->setFixedSize(84, kHeight_px);
+  setFixedSize(kText_px + 84, kHeight_px);
+  connect(button_, &QAbstractButton::clicked, this, &LeaseChip::act);
+  connect(&lease_, &Model::changed, this, &LeaseChip::refresh);
+  connect(&ui_.theme, &Theme::changed, this, qOverload<>(&QWidget::update));
+  refresh();
+}
+
+QString LeaseChip::text() const {
+  switch (lease_.holder()) {
+    case LeaseHolder::Unknown:
+      return tr("Lease unknown");
+    case LeaseHolder::Free:
+      return tr("Nobody in control");
+    case LeaseHolder::Mine:
+      return tr("You in control");
+    case LeaseHolder::Other:
+      return tr("%1 in control").arg(lease_.holderName());
+  }
+  return {};
+}
+
+void LeaseChip::act() {
+  if (lease_.mine())
+    lease_.release();
+  else
+    lease_.request(lease_.holder() == LeaseHolder::Other);
+}
+
+void LeaseChip::refresh() {
+  const LeaseHolder holder = lease_.holder();
+  button_->setText(lease_.requesting()            ? tr("asking …")
+                   : holder == LeaseHolder::Mine  ? tr("Release")
+                   : holder == LeaseHolder::Other ? tr("Take over")
+                                                  : tr("Request"));
+  button_->setKind(holder == LeaseHolder::Free ? ActKind::Primary : ActKind::Normal);
+  button_->setEnabled(holder != LeaseHolder::Unknown && !lease_.requesting());
+  setToolTip(lease_.refusal().isEmpty()
+                 ? tr("The lease lets one station command the robot. STOP needs no lease.")
+                 : tr("Refused: %1").arg(lease_.refusal()));
+  update();
+}
+
+void LeaseChip::paintEvent(QPaintEvent*) {
+  const Palette& p = ui_.theme.colors();
+  const LeaseHolder holder = lease_.holder();
+  QPainter painter(this);
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setPen(QPen(holder == LeaseHolder::Mine ? p.manual : p.border, 1.2));
+  painter.setBrush(p.sunk);
+  painter.drawRoundedRect(QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5), 5, 5);
+  // Shape tells it as well: a filled dot is you, a ring is nobody, a half-filled one is somebody
+  // else.
+  const QRectF dot(9, height() / 2.0 - 4.5, 9, 9);
+  const QColor mark = holder == LeaseHolder::Mine    ? p.manual
+                      : holder == LeaseHolder::Other ? p.caution
+                                                     : p.dim;
+  painter.setPen(QPen(mark, 1.6));
+  painter.setBrush(holder == LeaseHolder::Mine ? QBrush(mark) : Qt::NoBrush);
+  painter.drawEllipse(dot);
+  if (holder == LeaseHolder::Other) {
+    painter.setBrush(mark);
+    painter.drawPie(dot, 90 * 16, 180 * 16);
+  }
+  painter.setPen(holder == LeaseHolder::Unknown ? p.faint : p.text);
+  painter.setFont(ui_.theme.font(TextRole::Small));
+  const QRect area(24, 0, kText_px - 26, height());
+  painter.drawText(area, Qt::AlignLeft | Qt::AlignVCenter,
+                   painter.fontMetrics().elidedText(text(), Qt::ElideRight, area.width()));
+}
+
+}  // namespace kiln::gui

@@ -1,0 +1,129 @@
+#include "gui/views/top_bar/status_word.h"
+
+#include <QFontMetricsF>
+#include <QPainter>
+#include <QPainterPath>
+
+#include "gui/widgets/hatch.h"
+
+namespace kiln::gui {
+
+namespace {
+constexpr double kGap_px = 12.0;
+QString fromView(std::string_view text) {
+  return QString::fromUtf8(text.data(), static_cast<int>(text.size()));
+}
+}  // namespace
+
+StatusBlock::StatusBlock(const Ui& ui, StationModels& models, QWidget* parent)
+    : QWidget(parent), ui_(ui), models_(models) {
+  setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+  setFixedHeight(46);
+  const auto repaint = qOverload<>(&QWidget::update);
+  connect(&models_.status, &Model::changed, this, repaint);
+  connect(&models_.fsm, &Model::changed, this, repaint);
+  connect(&models_.link_state, &Model::changed, this, repaint);
+  connect(&models_, &StationModels::aged, this, repaint);
+  connect(&ui_.theme, &Theme::changed, this, repaint);
+}
+
+QString StatusBlock::word() const { return fromView(toString(models_.status.word())); }
+
+QString StatusBlock::reason() const {
+  const StatusWord word = models_.status.word();
+  const LinkHealth& link = models_.link_state.health();
+  if (word == StatusWord::NoLink) return link.reason.isEmpty() ? tr("connecting …") : link.reason;
+  const RobotStatus& status = *models_.status.status();
+  if (!status.reason.empty()) return QString::fromStdString(status.reason);
+  const FsmStatus* fsm = models_.fsm.status();
+  if (!fsm) return {};
+  const QString label = models_.fsm.label(models_.fsm.current());
+  return fsm->display_text.empty()
+             ? label
+             : label + QStringLiteral(" · ") + QString::fromStdString(fsm->display_text);
+}
+
+QColor StatusBlock::wordColor() const {
+  const Palette& p = ui_.theme.colors();
+  switch (models_.status.word()) {
+    case StatusWord::NoLink:
+    case StatusWord::Stopped:
+      return p.fault;
+    case StatusWord::NotReady:
+    case StatusWord::Paused:
+      return p.caution;
+    case StatusWord::Teleop:
+      return p.manual;
+    default:
+      return p.text;
+  }
+}
+
+double StatusBlock::paintName(QPainter& painter) {
+  const Palette& p = ui_.theme.colors();
+  QFont brand = ui_.theme.font(TextRole::Value);
+  brand.setWeight(QFont::Bold);
+  painter.setFont(brand);
+  painter.setPen(p.text);
+  double x = 4;
+  painter.drawText(QRectF(x, 0, 80, height()), Qt::AlignVCenter | Qt::AlignLeft,
+                   QStringLiteral("KILN"));
+  x += QFontMetricsF(brand).horizontalAdvance(QStringLiteral("KILN")) + kGap_px;
+  const QString name = models_.status.robotName();
+  painter.setFont(ui_.theme.font(TextRole::Body));
+  painter.setPen(p.dim);
+  painter.drawText(QRectF(x, 0, 120, height()), Qt::AlignVCenter | Qt::AlignLeft, name);
+  return x + QFontMetricsF(painter.font()).horizontalAdvance(name) + (name.isEmpty() ? 0 : kGap_px);
+}
+
+double StatusBlock::paintChip(QPainter& painter, double x) {
+  const Palette& p = ui_.theme.colors();
+  const RobotStatus* status = models_.status.status();
+  if (!status) return x;
+  const Environment environment = status->environment;
+  const QString text = environment == Environment::Sim      ? tr("SIMULATOR")
+                       : environment == Environment::Replay ? tr("REPLAY")
+                                                            : tr("LIVE");
+  const QColor color = environment == Environment::Sim      ? p.sim
+                       : environment == Environment::Replay ? p.replay
+                                                            : p.text;
+  QFont font = ui_.theme.font(TextRole::Small);
+  font.setWeight(QFont::DemiBold);
+  const QRectF chip(x, height() / 2.0 - 11, QFontMetricsF(font).horizontalAdvance(text) + 20, 22);
+  QPainterPath outline;
+  outline.addRoundedRect(chip, 3, 3);
+  if (environment != Environment::Live) {
+    QColor stripe = color;
+    stripe.setAlphaF(0.22);
+    painter.save();
+    painter.setClipPath(outline);
+    paintHatch(painter, chip, stripe, 9.0, 3.0);
+    painter.restore();
+  }
+  painter.setPen(QPen(color, 1.4));
+  painter.drawPath(outline);
+  painter.setFont(font);
+  painter.drawText(chip, Qt::AlignCenter, text);
+  return chip.right() + kGap_px + 4;
+}
+
+void StatusBlock::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  painter.setRenderHint(QPainter::Antialiasing);
+  double x = paintChip(painter, paintName(painter));
+  const QFont large = ui_.theme.font(TextRole::Word);
+  painter.setFont(large);
+  painter.setPen(wordColor());
+  painter.drawText(QRectF(x, 0, width() - x, height()), Qt::AlignVCenter | Qt::AlignLeft, word());
+  x += QFontMetricsF(large).horizontalAdvance(word()) + kGap_px;
+  const QFont body = ui_.theme.font(TextRole::Body);
+  painter.setFont(body);
+  painter.setPen(ui_.theme.colors().text);
+  const double room = width() - x - 6;
+  const QString text = reason();
+  setToolTip(text);
+  painter.drawText(QRectF(x, 2, room, height()), Qt::AlignVCenter | Qt::AlignLeft,
+                   QFontMetricsF(body).elidedText(text, Qt::ElideRight, room));
+}
+
+}  // namespace kiln::gui

@@ -1,0 +1,149 @@
+#include "gui/views/top_bar/top_bar.h"
+
+#include <QHBoxLayout>
+#include <QPainter>
+#include <cmath>
+
+#include "gui/views/top_bar/lease_chip.h"
+#include "gui/views/top_bar/status_word.h"
+#include "gui/views/top_bar/stop_button.h"
+#include "gui/widgets/age_badge.h"
+
+namespace kiln::gui {
+
+namespace {
+constexpr int kHeight_px = 48;
+constexpr int kNarrow_px = 1280;
+constexpr double kBatteryEmpty_v = 24.0;
+constexpr double kBatteryLow_v = 26.0;
+constexpr double kBatteryFull_v = 29.6;
+constexpr double kTanks_l = 10.0;
+constexpr double kWaterLow_l = 2.0;
+constexpr double kSlowLink_s = 0.150;
+constexpr double kVerySlowLink_s = 0.300;
+constexpr double kClockLow_s = 60.0;
+
+QString clockText(double s) {
+  const int whole = static_cast<int>(s);
+  return QStringLiteral("%1:%2")
+      .arg(whole / 60, 2, 10, QLatin1Char('0'))
+      .arg(whole % 60, 2, 10, QLatin1Char('0'));
+}
+QString ms(double s) {
+  return s < 0 ? QStringLiteral("–") : QString::number(std::lround(s * 1000));
+}
+}  // namespace
+
+TopBar::TopBar(const Ui& ui, StationModels& models, QWidget* parent)
+    : QWidget(parent),
+      ui_(ui),
+      models_(models),
+      status_(new StatusBlock(ui, models, this)),
+      lease_(new LeaseChip(ui, models.lease, this)),
+      link_(new Figure(ui, tr("Link"), QStringLiteral("↓888 ↑888 ms 88.8 %"), this)),
+      age_(new Figure(ui, tr("Data age"), QStringLiteral("8.88 s"), this)),
+      battery_(new Figure(ui, tr("Battery"), QStringLiteral("88.8 V"), this)),
+      water_(new Figure(ui, tr("Water est."), QStringLiteral("88.8 l"), this)),
+      clock_(new Figure(ui, tr("Mission clock"), QStringLiteral("88:88 / 88:88"), this)),
+      score_(new Figure(ui, tr("Score"), QStringLiteral("8.88"), this)),
+      clear_(new HoldButton(ui, tr("Clear stop"), 1.0, this)),
+      stop_(new StopButton(ui, models.stop, this)) {
+  setFixedHeight(kHeight_px);
+  clock_->setRole(TextRole::Strong);
+  score_->setRole(TextRole::Strong);
+  clear_->setSubtext(tr("hold 1 s"));
+  clear_->setKind(ActKind::Caution);
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(8, 1, 1, 1);
+  row->setSpacing(14);
+  row->addWidget(status_, 1);
+  for (QWidget* widget :
+       {static_cast<QWidget*>(lease_), static_cast<QWidget*>(link_), static_cast<QWidget*>(age_),
+        static_cast<QWidget*>(battery_), static_cast<QWidget*>(water_),
+        static_cast<QWidget*>(clock_), static_cast<QWidget*>(score_), static_cast<QWidget*>(clear_),
+        static_cast<QWidget*>(stop_)}) {
+    row->addWidget(widget);
+  }
+  connect(clear_, &HoldButton::completed, &models_.stop, &StopModel::clear);
+  for (const Model* model :
+       {static_cast<const Model*>(&models_.status), static_cast<const Model*>(&models_.stop),
+        static_cast<const Model*>(&models_.link_state),
+        static_cast<const Model*>(&models_.lease)}) {
+    connect(model, &Model::changed, this, &TopBar::refresh);
+  }
+  connect(&models_, &StationModels::aged, this, &TopBar::refresh);
+  connect(&ui_.theme, &Theme::changed, this, qOverload<>(&QWidget::update));
+  refresh();
+}
+
+void TopBar::refresh() {
+  refreshLink();
+  const AgeLevel level = models_.status.ageLevel();
+  clear_->setVisible(models_.stop.latched());
+  clear_->setEnabled(models_.lease.mine());
+  clear_->setToolTip(models_.lease.mine()
+                         ? tr("Clears the latch. Nothing moves by itself afterwards.")
+                         : tr("Clearing a stop needs the lease."));
+  const RobotStatus* status = models_.status.status();
+  if (!status) {
+    for (Figure* figure : {battery_, water_, clock_, score_})
+      figure->set(QStringLiteral("–"), AgeLevel::None);
+    return;
+  }
+  const AgeLevel shown = level == AgeLevel::Red ? AgeLevel::Red : AgeLevel::Fresh;
+  const auto judged = [shown](bool low) {
+    return shown == AgeLevel::Fresh && low ? AgeLevel::Amber : shown;
+  };
+  battery_->set(QStringLiteral("%1 V").arg(status->battery_v, 0, 'f', 1),
+                judged(status->battery_v < kBatteryLow_v));
+  battery_->setBar((status->battery_v - kBatteryEmpty_v) / (kBatteryFull_v - kBatteryEmpty_v));
+  const double litres = status->water.tank_l_est[0] + status->water.tank_l_est[1];
+  water_->set(QStringLiteral("%1 l").arg(litres, 0, 'f', 1), judged(litres < kWaterLow_l));
+  water_->setBar(litres / kTanks_l);
+  const double left_s = status->mission_limit_s - status->mission_elapsed_s;
+  clock_->set(clockText(status->mission_elapsed_s) + QStringLiteral(" / ") +
+                  clockText(status->mission_limit_s),
+              judged(left_s < kClockLow_s));
+  clock_->setBar(status->mission_limit_s > 0 ? status->mission_elapsed_s / status->mission_limit_s
+                                             : 0.0);
+  score_->set(QString::number(status->score_est, 'f', status->score_est < 10 ? 1 : 0), shown);
+}
+
+void TopBar::refreshLink() {
+  const LinkHealth& health = models_.link_state.health();
+  const double worst_s = std::max(health.rtt_s, 2 * std::max(health.up_s, health.down_s));
+  AgeLevel level = worst_s >= kVerySlowLink_s ? AgeLevel::Red
+                   : worst_s >= kSlowLink_s   ? AgeLevel::Amber
+                                              : AgeLevel::Fresh;
+  if (health.state == LinkState::Degraded) level = AgeLevel::Amber;
+  if (!models_.link_state.usable()) {
+    link_->set(health.state == LinkState::Connecting ? tr("connecting …")
+               : health.state == LinkState::Refused  ? tr("refused")
+                                                     : tr("lost"),
+               health.state == LinkState::Connecting ? AgeLevel::None : AgeLevel::Red);
+  } else if (health.robot_hears_age_s > 1.5) {
+    link_->set(tr("robot is deaf"), AgeLevel::Red);
+  } else {
+    link_->set(QStringLiteral("↓%1 ↑%2 ms %3 %")
+                   .arg(ms(health.down_s), ms(health.up_s))
+                   .arg(100 * health.loss, 0, 'f', 1),
+               level);
+  }
+  link_->setToolTip(tr("%1\none way down and up, heartbeats lost over 10 s").arg(health.endpoint));
+  const double age_s = models_.status.ageS();
+  age_->set(age_s < 0 ? QStringLiteral("–") : ageText(age_s), models_.status.ageLevel());
+}
+
+void TopBar::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  age_->setVisible(width() >= kNarrow_px);
+  score_->setVisible(width() >= kNarrow_px);
+}
+
+void TopBar::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  painter.fillRect(rect(), ui_.theme.colors().panel);
+  painter.fillRect(QRect(0, height() - 1, width(), 1), ui_.theme.colors().border);
+}
+
+}  // namespace kiln::gui

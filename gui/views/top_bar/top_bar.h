@@ -1,0 +1,42 @@
+#pragma once
+
+#include <QWidget>
+
+#include "gui/models/station_models.h"
+#include "gui/widgets/figure.h"
+#include "gui/widgets/hold_button.h"
+
+namespace kiln::gui {
+
+class LeaseChip;
+class StatusBlock;
+class StopButton;
+
+/// 48 px at the top of the window, never covered: who, what state, who commands, link, energy,
+/// water, clock, STOP.
+class TopBar : public QWidget {
+  Q_OBJECT
+ public:
+  TopBar(const Ui& ui, StationModels& models, QWidget* parent = nullptr);
+  [[nodiscard]] LeaseChip* leaseChip() const { return lease_; }
+  [[nodiscard]] StopButton* stopButton() const { return stop_; }
+  [[nodiscard]] HoldButton* clearButton() const { return clear_; }
+  [[nodiscard]] StatusBlock* statusBlock() const { return status_; }
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
+
+ private:
+  void refresh();
+  void refreshLink();
+  Ui ui_;
+  StationModels& models_;
+  StatusBlock* status_;
+  LeaseChip* lease_;
+  Figure *link_, *age_, *battery_, *water_, *clock_, *score_;
+  HoldButton* clear_;
+  StopButton* stop_;
+};
+
+}  // namespace kiln::gui
