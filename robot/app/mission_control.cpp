@@ -45,14 +45,13 @@ const char* codeOf(ChangeStateOutcome outcome) {
 void MissionControl::startMission(Stamp now) {
   mode_ = Mode::Autonomous;
   pause_reason_.clear();
-  parts_.world.startClock(now);
-  parts_.machine.start(now);
+  parts_.mission.start(now);
   logger("mission")->info("mission started");
 }
 
 void MissionControl::resumeMission(Stamp now) {
   mode_ = Mode::Autonomous;
-  if (!parts_.world.state().clock_started) parts_.world.startClock(now);
+  parts_.mission.machine().resume(now);
   logger("mission")->warn("mission resumed from its checkpoint");
 }
 
@@ -72,13 +71,13 @@ CommandAck MissionControl::executeDiscrete(const Command& command, Stamp now) {
   }
   if (std::holds_alternative<Pause>(body)) {
     pause_reason_ = "paused by " + command.operator_name;
-    parts_.machine.pause(pause_reason_, now);
+    parts_.mission.machine().pause(pause_reason_, now);
     return done(command);
   }
   if (std::holds_alternative<Resume>(body)) {
     if (mode_ == Mode::Teleop) return setMode(command, before_teleop_, now);
     pause_reason_.clear();
-    parts_.machine.resume(now);
+    parts_.mission.machine().resume(now);
     return done(command);
   }
   if (const auto* change = std::get_if<ChangeState>(&body))
@@ -118,7 +117,8 @@ CommandAck MissionControl::executeDiscrete(const Command& command, Stamp now) {
 
 CommandAck MissionControl::changeState(const Command& command, const ChangeState& change,
                                        Stamp now) {
-  const ChangeStateResult result = parts_.machine.changeState(change, command.operator_name, now);
+  const ChangeStateResult result =
+      parts_.mission.machine().changeState(change, command.operator_name, now);
   if (result.outcome != ChangeStateOutcome::Ok) {
     return answer(command, AckOutcome::Refused, codeOf(result.outcome), result.reason);
   }
@@ -130,16 +130,16 @@ CommandAck MissionControl::setMode(const Command& command, Mode mode, Stamp now)
   if (mode == Mode::Teleop) {
     if (mode_ != Mode::Teleop) before_teleop_ = mode_;
     pause_reason_ = command.operator_name + " drives by hand";
-    parts_.machine.pause(pause_reason_, now);
+    parts_.mission.machine().pause(pause_reason_, now);
     hold(now);
     mode_ = Mode::Teleop;
     return done(command);
   }
   if (mode == Mode::Autonomous || mode == Mode::None) {
     hold(now);
-    mode_ = parts_.machine.status(now).running ? Mode::Autonomous : Mode::None;
+    mode_ = parts_.mission.machine().status(now).running ? Mode::Autonomous : Mode::None;
     pause_reason_.clear();
-    parts_.machine.resume(now);
+    parts_.mission.machine().resume(now);
     return done(command);
   }
   return answer(command, AckOutcome::Refused, "wrong_mode",
@@ -186,30 +186,27 @@ void MissionControl::watchStop(Stamp now) {
   if (!parts_.stop.latched() || stop_seen_) return;
   stop_seen_ = true;
   pause_reason_ = "STOP by " + parts_.stop.source();
-  parts_.machine.pause(pause_reason_, now);
+  parts_.mission.machine().pause(pause_reason_, now);
   hold(now);
   logger("safety")->error("{}; clear it from a station that holds the lease", pause_reason_);
 }
 
 void MissionControl::onReset(Stamp now) {
   hold(now);
-  parts_.machine.restart("reset: the robot was carried back to its start", now);
+  parts_.mission.onReset(now);
   logger("mission")->warn("reset: robot is back at its start, clock runs on");
 }
 
 void MissionControl::step(Stamp now, bool macro_held) {
-  if (parts_.stop.latched()) return;
-  if (mode_ == Mode::Teleop) {
-    parts_.macros.poll(now, macro_held);
-  } else {
-    parts_.machine.step(now);
-  }
+  if (mode_ == Mode::Teleop && !parts_.stop.latched()) parts_.macros.poll(now, macro_held);
+  parts_.mission.tick(
+      now);  // in teleop and after STOP the machine is paused: it keeps books, and moves nothing
 }
 
 StatusWord MissionControl::word(Stamp now, bool checks_ok) const {
   if (parts_.stop.latched()) return StatusWord::Stopped;
   if (mode_ == Mode::Teleop) return StatusWord::Teleop;
-  const FsmStatus fsm = parts_.machine.status(now);
+  const FsmStatus fsm = parts_.mission.machine().status(now);
   if (fsm.running && fsm.paused) return StatusWord::Paused;
   if (fsm.running) return mode_ == Mode::Supervised ? StatusWord::Supervised : StatusWord::Auto;
   return checks_ok ? StatusWord::Ready : StatusWord::NotReady;

@@ -5,10 +5,9 @@
 #include "common/model/status.h"
 #include "robot/app/alarm_book.h"
 #include "robot/app/teleop.h"
-#include "robot/fsm/machine.h"
+#include "robot/missions/fire/fire_mission.h"
 #include "robot/safety/authority.h"
 #include "robot/skills/macro_runner.h"
-#include "robot/world_model/world_model.h"
 
 namespace kiln {
 
@@ -18,8 +17,7 @@ namespace kiln {
 class MissionControl {
  public:
   struct Parts {
-    Machine& machine;
-    WorldModel& world;
+    FireMission& mission;
     Teleop& teleop;
     MacroRunner& macros;
     AlarmBook& alarms;
@@ -31,7 +29,7 @@ class MissionControl {
 
   /// Starts the mission in autonomous mode. @pre the preflight checks hold.
   void startMission(Stamp now);
-  /// After --resume: the machine was restored; goes on by itself when `run`.
+  /// After --resume: the mission was restored from its checkpoint and goes on.
   void resumeMission(Stamp now);
   /// Executes one accepted command. @return its answer; nullopt for setpoints and for a macro that
   /// answers later.
@@ -48,7 +46,6 @@ class MissionControl {
   [[nodiscard]] Mode mode() const { return parts_.stop.latched() ? Mode::Stopped : mode_; }
   [[nodiscard]] StatusWord word(Stamp now, bool checks_ok) const;
   [[nodiscard]] std::string reason() const;
-  [[nodiscard]] bool running(Stamp now) const { return parts_.machine.status(now).running; }
 
  private:
   CommandAck executeDiscrete(const Command& command, Stamp now);

@@ -5,9 +5,9 @@
 
 #include "common/config/resources.h"
 #include "common/core/log.h"
+#include "robot/app/heat_localizer_sweep.h"
 #include "robot/app/mission_control.h"
 #include "robot/app/mission_report.h"
-#include "robot/app/robot_store.h"
 #include "robot/app/telemetry_hub.h"
 #include "robot/safety/authority.h"
 
@@ -27,12 +27,33 @@ std::optional<Stamp> stampOf(const std::optional<T>& state) {
   return state ? std::optional(state->stamp) : std::nullopt;
 }
 
+/// Rules of Challenge 3: 6 points for the first litre on the burning place. What is burning is
+/// known by what was sprayed at, and litres are an estimate.
+double scoreEstimate(const WorldState& world) {
+  double best_l = 0.0;
+  for (const FirePlace& place : world.places) best_l = std::max(best_l, place.litres_est);
+  return 6.0 * std::min(best_l, 1.0);
+}
+
+template <class T>
+Result<T> loadResource(const std::string& resource) {
+  T config;
+  auto file = resourcePath(resource);
+  if (!file) return tl::make_unexpected(file.error());
+  if (auto loaded = loadConfig(*file, config); !loaded) return tl::make_unexpected(loaded.error());
+  return config;
+}
+
+void warnIfFailed(const Result<void>& started) {
+  if (!started) logger("robot")->error("{}", started.error().message);
+}
+
 }  // namespace
 
 struct Robot::Impl {
   Impl(const RobotSettings& settings_in, const RobotOptions& options_in, Devices devices_in,
        const Clock& clock_in, Executor& executor, OperatorLink* link_in, StopLatch& stop_in,
-       RobotGeometry robot_in, ArenaMap arena_in, SprayCalibration spray_in);
+       RobotGeometry robot_in, ArenaMap arena_in, const SprayCalibration& spray_in);
   void start(Executor& executor);
   void controlTick(Stamp now);
   void missionTick(Stamp now);
@@ -41,7 +62,8 @@ struct Robot::Impl {
   void takePerception(Stamp now);
   void obeyOperators(Stamp now);
   void startWhenReady(Stamp now);
-  void updateWorld(Stamp now);
+  void keepBooks(Stamp now);
+  void recordEstimate(Stamp image, const Eigen::Isometry3d& X_map_thermal);
   void raiseAlarms(Stamp now);
   void publish(Stamp now);
   [[nodiscard]] RobotStatus status(Stamp now) const;
@@ -49,6 +71,11 @@ struct Robot::Impl {
   [[nodiscard]] PreflightInputs preflightInputs(Stamp now) const;
   [[nodiscard]] bool atStandstill() const;
   [[nodiscard]] Pose2 pose() const { return tracked.X_map_base; }
+  [[nodiscard]] std::string checkpointPath() const {
+    return options.state_dir.empty() ? std::string()
+                                     : options.state_dir + "/" + options.mission + ".checkpoint";
+  }
+  Result<void> resume(Stamp now);
 
   RobotSettings settings;
   RobotOptions options;
@@ -72,6 +99,7 @@ struct Robot::Impl {
   DriveTo drive;
   MoveArm move_arm;
   WorldModel world;
+  HeatLocalizerSweep sweep;
   FireMission mission;
   MacroRunner macros;
   Teleop teleop;
@@ -80,7 +108,6 @@ struct Robot::Impl {
   MissionControl control;
   TelemetryHub telemetry;
   MissionReport report;
-  RobotStore store;
   LogSinkHandle log_sink;
 
   std::vector<Check> checks;
@@ -90,6 +117,7 @@ struct Robot::Impl {
   std::optional<Stamp> mission_start;
   std::uint64_t status_seq = 0;
   bool storage_ok = true;
+  bool resume_pending = false;
   std::atomic<bool> ended{false}, succeeded{false};
 };
 
@@ -117,17 +145,19 @@ Robot::Impl::Impl(const RobotSettings& settings_in, const RobotOptions& options_
       drive(settings.drive_to, arena, base, [this] { return pose(); }),
       move_arm(settings.move_arm, robot, arena, arm, devices.arm, [this] { return pose(); }),
       world(initialWorld(arena)),
-      mission(fireContext(spray_in)),
-      macros(macroContext(spray_in)),
+      sweep(settings.heat_localizer),
+      mission({clock, arena, robot, world, drive, move_arm, devices.arm, pumps, sweep,
+               [this] { return pose(); }},
+              settings.fire, spray_in, {options.mission_uuid, checkpointPath()}),
       teleop(settings.teleop, robot, base, arm, pumps),
       authority(settings.authority),
       control({mission.machine(), world, teleop, macros, alarms, stop, devices.arm, devices.arena}),
       telemetry({10.0, 10.0, 5.0, settings.camera_rate_hz, settings.jpeg_quality}, link, executor),
-      report(options.mission, clock.now()),
-      store(options.state_dir) {}
+      report(options.mission, clock.now()) {}
 
 void Robot::Impl::start(Executor& executor) {
   const Stamp now = clock.now();
+  log_sink = addLogSink([this](const LogRecord& record) { telemetry.onLog(record, clock.now()); });
   tracker.reset(arena.start.pose(), now);
   resets_seen = devices.resets();
   if (devices.lidar)
@@ -161,7 +191,7 @@ void Robot::Impl::missionTick(Stamp now) {
   obeyOperators(now);
   startWhenReady(now);
   control.step(now, authority.held(HoldKind::Macro, now));
-  updateWorld(now);
+  keepBooks(now);
   raiseAlarms(now);
   publish(now);
 }
@@ -235,30 +265,34 @@ void Robot::Impl::obeyOperators(Stamp now) {
 
 void Robot::Impl::startWhenReady(Stamp now) {
   checks = preflight(preflightInputs(now), settings.preflight);
+  if (resume_pending && allOk(checks)) {
+    resume_pending = false;
+    control.resumeMission(now);
+  }
   if (!options.start || mission_start || !allOk(checks)) return;
   control.startMission(now);
 }
 
-void Robot::Impl::updateWorld(Stamp now) {
+void Robot::Impl::keepBooks(Stamp now) {
   fsm = mission.machine().status(now);
   if (fsm.running && !mission_start) {
     mission_start = now;
     report = MissionReport(options.mission, now);
   }
-  const PumpTracking water = pumps.tracking();
-  WorldState& state = world.edit();
-  state.X_map_base = pose();
-  state.pose_stamp = now;
-  state.sprayed_l_est = water.sprayed_l_est;
-  state.tank_l_est = water.tank_l_est;
-  world.publish();
   report.observe(fsm);
-  report.setTotals(state.sprayed_l_est, state.resets);
+  report.setTotals(world.state().sprayed_l_est, world.state().resets);
   if (fsm.terminal && !ended.load()) {
     succeeded.store(fsm.success);
     ended.store(true);
     logger("mission")->info("mission ended: {}", fsm.success ? "success" : fsm.display_text);
   }
+}
+
+void Robot::Impl::recordEstimate(Stamp image, const Eigen::Isometry3d& X_map_thermal) {
+  const auto estimate = sweep.estimate();
+  if (!estimate || estimate->stamp != image) return;
+  report.addHeatEstimate({image, X_map_thermal.inverse() * estimate->p_map, estimate->range_m,
+                          estimate->baseline_range_m, estimate->views, estimate->place});
 }
 
 void Robot::Impl::raiseAlarms(Stamp now) {
@@ -274,8 +308,11 @@ void Robot::Impl::raiseAlarms(Stamp now) {
              "tank empty, hose blocked or cable loose: check, then spray again", now);
   alarms.set("pose.lost", fsm.running && tracked.health == PoseHealth::Lost, AlarmLevel::Warning,
              "Position lost", "drive by hand or call a reset", now);
-  alarms.set("storage", !storage_ok, AlarmLevel::Caution, "Checkpoint cannot be written",
-             "free some space: without it a restart begins anew", now);
+  const auto mission_alarms = mission.alarms();
+  storage_ok = mission_alarms.empty();
+  alarms.set("storage", !storage_ok, AlarmLevel::Caution,
+             storage_ok ? "" : mission_alarms.front().text,
+             storage_ok ? "" : mission_alarms.front().action, now);
   alarms.set("fsm.blocked", !fsm.blocked.empty(), AlarmLevel::Warning, fsm.blocked,
              "press STOP and restart the daemon", now);
   alarms.set("battery.low",
@@ -346,7 +383,7 @@ RobotStatus Robot::Impl::status(Stamp now) const {
   s.mission_elapsed_s = world.state().elapsedS(now);
   s.mission_limit_s = settings.mission_limit_s;
   s.resets = world.state().resets;
-  s.score_est = mission.scoreEstimate();
+  s.score_est = scoreEstimate(world.state());
   s.alarms = alarms.list();
   if (link) {
     s.drops = link->drops();
@@ -359,10 +396,8 @@ RobotStatus Robot::Impl::status(Stamp now) const {
 Scene Robot::Impl::scene(Stamp now) const {
   Scene scene;
   scene.stamp = now;
-  for (const FirePlace& place : world.state().places) {
-    scene.places.push_back({place.name, place.p_plate_map, place.facing_rad, place.visited});
-    if (place.estimate) scene.fires.push_back(*place.estimate);
-  }
+  scene.fires = mission.fires();
+  scene.places = mission.places();
   scene.planned = {now, drive.waypoints(), drive.nextIndex()};
   scene.jet = mission.jetPreview(now);
   scene.arena = sceneBoxes(arena);
@@ -378,3 +413,48 @@ void Robot::Impl::publish(Stamp now) {
   if (telemetry.sceneDue(now)) telemetry.publish(scene(now));
   telemetry.flushLog(now);
 }
+
+Result<void> Robot::Impl::resume(Stamp now) {
+  if (auto resumed = mission.resumeFrom(checkpointPath(), now); !resumed) return resumed;
+  mission_start = now;
+  tracker.reset(world.state().X_map_base, now);
+  mission.machine().pause("resuming: waiting for sensors and position", now);
+  resume_pending = true;
+  return {};
+}
+
+Result<std::unique_ptr<Robot>> Robot::create(const RobotSettings& settings,
+                                             const RobotOptions& options, Devices devices,
+                                             const Clock& clock, Executor& executor,
+                                             OperatorLink* link, StopLatch& stop) {
+  auto robot = loadResource<RobotGeometry>(settings.geometry);
+  if (!robot) return tl::make_unexpected(robot.error());
+  auto arena = loadResource<ArenaMap>(settings.arena);
+  if (!arena) return tl::make_unexpected(arena.error());
+  auto spray = loadResource<SprayCalibration>(settings.spray_calibration);
+  if (!spray) return tl::make_unexpected(spray.error());
+  if (auto valid = spray->validate(); !valid) return tl::make_unexpected(valid.error());
+  auto impl = std::make_unique<Impl>(settings, options, std::move(devices), clock, executor, link,
+                                     stop, std::move(*robot), std::move(*arena), *spray);
+  impl->start(executor);
+  if (options.resume) {
+    if (auto resumed = impl->resume(clock.now()); !resumed)
+      return tl::make_unexpected(resumed.error());
+  }
+  return std::unique_ptr<Robot>(new Robot(std::move(impl)));
+}
+
+Robot::Robot(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Robot::~Robot() {
+  if (impl_->devices.lidar) impl_->devices.lidar->stop();
+  if (impl_->devices.thermal) impl_->devices.thermal->stop();
+  if (impl_->devices.operator_camera) impl_->devices.operator_camera->stop();
+}
+
+bool Robot::missionEnded() const { return impl_->ended.load(); }
+bool Robot::missionSucceeded() const { return impl_->succeeded.load(); }
+std::string Robot::reportJson(Stamp now) const { return impl_->report.toJson(now); }
+const BaseController& Robot::base() const { return impl_->base; }
+const PumpController& Robot::pumps() const { return impl_->pumps; }
+
+}  // namespace kiln

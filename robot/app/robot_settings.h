@@ -7,6 +7,7 @@
 #include "robot/app/teleop.h"
 #include "robot/missions/fire/fire_mission.h"
 #include "robot/perception/thermal/heat_localizer.h"
+#include "robot/safety/authority.h"
 #include "robot/skills/drive_to.h"
 #include "robot/skills/move_arm.h"
 
@@ -33,7 +34,8 @@ struct RobotSettings {
   PoseTracker::Config pose;
   HeatDetector::Config heat_detector;
   HeatLocalizer::Config heat_localizer;
-  FireMissionConfig fire;
+  FireConfig fire;
+  Authority::Config authority;
   Teleop::Config teleop;
   PreflightLimits preflight;
   void visit(ConfigArchive& a);
