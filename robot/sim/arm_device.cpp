@@ -1,0 +1,121 @@
+#include "robot/sim/arm_device.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace kiln::sim {
+
+ArmDevice::ArmDevice(const ArmDeviceConfig& config, const RobotGeometry& robot, std::uint64_t seed)
+    : config_(config), robot_(robot), noise_(seed, "arm force") {}
+
+std::string ArmDevice::refusal(Stamp now, const Vector6d& q, const Vector6d& qd) const {
+  // The time since the target that is being followed; one servo period of the slowest UR when there
+  // is none.
+  const double dt = following_ ? std::max(0.004, toSeconds(now - target_time_)) : 0.008;
+  const Vector6d& from = following_ ? target_q_ : q_ref_;
+  for (int i = 0; i < 6; ++i) {
+    if (!std::isfinite(q[i]) || !std::isfinite(qd[i]))
+      return fmt::format("servo target of joint {} is not a number", i + 1);
+    if (std::fabs(q[i]) > robot_.arm.position_limit[i]) {
+      return fmt::format("servo target of joint {} is {:.3f} rad, limit {:.3f}", i + 1, q[i],
+                         robot_.arm.position_limit[i]);
+    }
+    const double limit = config_.speed_tolerance * robot_.arm.velocity_limit[i];
+    const double jump = std::max(0.0, std::fabs(q[i] - from[i]) - config_.position_slack_rad);
+    if (std::fabs(qd[i]) > limit || jump > limit * dt) {
+      return fmt::format("servo target of joint {} needs {:.2f} rad/s, limit {:.2f}", i + 1,
+                         std::max(std::fabs(qd[i]), jump / dt), robot_.arm.velocity_limit[i]);
+    }
+  }
+  return {};
+}
+
+std::string ArmDevice::servo(Stamp now, const Vector6d& q, const Vector6d& qd) {
+  if (stopped_) return "servo target ignored: protective stop";
+  if (std::string why = refusal(now, q, qd); !why.empty()) {
+    protectiveStop();
+    return why;
+  }
+  target_q_ = q;
+  target_qd_ = qd;
+  target_time_ = now;
+  following_ = true;
+  return {};
+}
+
+void ArmDevice::releaseProtectiveStop() { stopped_ = false; }
+
+void ArmDevice::protectiveStop() {
+  stopped_ = true;
+  following_ = false;
+}
+
+void ArmDevice::reset(const Vector6d& q) {
+  q_ref_ = q;
+  qd_ref_.setZero();
+  wrench_.setZero();
+  following_ = stopped_ = false;
+}
+
+void ArmDevice::advanceReference(Stamp now, double step_s) {
+  if (following_ && toSeconds(now - target_time_) > config_.watchdog_s) following_ = false;
+  if (following_) {
+    // The target is for the moment it came; feed-forward carries it to this one, for one slow servo
+    // period at most.
+    const double age = std::min(0.016, toSeconds(now - target_time_));
+    q_ref_ = target_q_ + age * target_qd_;
+    qd_ref_ = target_qd_;
+    return;
+  }
+  for (int i = 0; i < 6; ++i) {
+    const double brake = config_.hold_decel_radps2 * step_s;
+    qd_ref_[i] -= std::clamp(qd_ref_[i], -brake, brake);
+    q_ref_[i] += qd_ref_[i] * step_s;
+  }
+}
+
+void ArmDevice::control(Stamp now, double step_s, Physics& physics) {
+  advanceReference(now, step_s);
+  const double w = config_.bandwidth_radps;
+  const Vector6d q = physics.armPosition(), qd = physics.armVelocity();
+  if (stopped_) {
+    // Brakes hold where the arm came to rest; they do not press on against an obstacle.
+    for (int i = 0; i < 6; ++i) q_ref_[i] = q[i] + std::clamp(q_ref_[i] - q[i], -0.02, 0.02);
+  }
+  physics.accelerateArm(w * w * (q_ref_ - q) + 2.0 * w * (qd_ref_ - qd));
+}
+
+void ArmDevice::sense(double step_s, const Physics& physics) {
+  Vector6d now = Vector6d::Zero();
+  const Eigen::Isometry3d X_map_armbase = physics.X_map_base() * robot_.X_base_armbase.pose();
+  const Eigen::Isometry3d X_armbase_tool =
+      robot_.arm.forward(physics.armPosition()) * robot_.X_flange_tool.pose();
+  for (const BodyContact& contact : physics.contacts()) {
+    if (!contact.arm) continue;
+    const Eigen::Vector3d force = X_map_armbase.linear().transpose() * contact.force_on_a;
+    const Eigen::Vector3d lever =
+        X_map_armbase.inverse() * contact.point - X_armbase_tool.translation();
+    now.head<3>() += force;
+    now.tail<3>() += lever.cross(force);
+  }
+  const double alpha = step_s / (config_.force_filter_s + step_s);
+  wrench_ += alpha * (now - wrench_);
+  if (wrench_.head<3>().norm() > config_.protective_force_n) protectiveStop();
+}
+
+ArmState ArmDevice::report(Stamp now, const Physics& physics) {
+  ArmState state;
+  state.stamp = now;
+  state.q = physics.armPosition();
+  state.qd = physics.armVelocity();
+  for (int i = 0; i < 6; ++i) {
+    state.wrench_tool[i] =
+        wrench_[i] + noise_.normal(i < 3 ? config_.force_noise_n : config_.torque_noise_nm);
+  }
+  state.safety = stopped_ ? ArmSafetyMode::ProtectiveStop : ArmSafetyMode::Normal;
+  return state;
+}
+
+}  // namespace kiln::sim

@@ -1,0 +1,103 @@
+#include "robot/sim/base_device.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace kiln::sim {
+namespace {
+constexpr double kDeg = M_PI / 180.0;
+}
+
+BaseDevice::BaseDevice(const BaseDeviceConfig& config, const RobotGeometry& robot,
+                       const TrueRobot& truth)
+    : config_(config), robot_(robot), truth_(truth) {}
+
+std::string BaseDevice::write(Stamp now, const WheelCommands& command) {
+  const double fastest = config_.max_speed_mps / robot_.wheel_radius_m;
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (!std::isfinite(command[i].steer_rad) || !std::isfinite(command[i].drive_radps)) {
+      return fmt::format("command of wheel {} is not a number", i + 1);
+    }
+    if (std::fabs(command[i].steer_rad) > robot_.steer_limit_deg * kDeg + 1e-6) {
+      return fmt::format("steering of wheel {} is {:.2f} rad, limit {:.2f}", i + 1,
+                         command[i].steer_rad, robot_.steer_limit_deg * kDeg);
+    }
+    if (std::fabs(command[i].drive_radps) > fastest) {
+      return fmt::format("wheel {} is to turn at {:.1f} rad/s, limit {:.1f}", i + 1,
+                         command[i].drive_radps, fastest);
+    }
+  }
+  command_ = command;
+  command_time_ = now;
+  commanded_ = true;
+  return {};
+}
+
+void BaseDevice::reset() {
+  commanded_ = false;
+  watchdog_stop_ = true;
+  command_ = {};
+  steer_ref_ = drive_ref_ = integral_ = {};
+}
+
+void BaseDevice::followCommand(Stamp now, double step_s) {
+  watchdog_stop_ = !commanded_ || toSeconds(now - command_time_) > config_.watchdog_s;
+  if (watchdog_stop_) {
+    double fastest = 0.0;
+    for (const double w : drive_ref_) fastest = std::max(fastest, std::fabs(w));
+    const double brake = config_.stop_decel_mps2 / robot_.wheel_radius_m * step_s;
+    const double scale = fastest > brake ? 1.0 - brake / fastest : 0.0;
+    for (double& w : drive_ref_) w *= scale;  // one factor for all: the base keeps its course
+    return;
+  }
+  const double turn = robot_.steer_rate_deg_s * kDeg * step_s;
+  for (std::size_t i = 0; i < 4; ++i) {
+    steer_ref_[i] += std::clamp(command_[i].steer_rad - steer_ref_[i], -turn, turn);
+    drive_ref_[i] = command_[i].drive_radps;
+  }
+}
+
+void BaseDevice::control(Stamp now, double step_s, Physics& physics) {
+  const std::array<double, 4> steer_before = steer_ref_;
+  followCommand(now, step_s);
+  power_w_ = 0.0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const JointState steer = physics.steer(i), drive = physics.drive(i);
+    const double steer_rate = (steer_ref_[i] - steer_before[i]) / step_s;
+    // The encoder reads the wheel's angle less its offset, so the wheel ends up turned by the
+    // offset.
+    const double error = steer_ref_[i] + truth_.steer_offset_rad[i] - steer.position;
+    const double steer_torque = std::clamp(
+        config_.steer_gain * error + config_.steer_damping * (steer_rate - steer.velocity),
+        -config_.steer_torque_nm, config_.steer_torque_nm);
+    physics.setSteerTorque(i, steer_torque);
+    // A wheel that is larger by e covers 1 + e of the nominal way: the physics wheel is nominal and
+    // turns so much more.
+    const double slip = drive_ref_[i] * (1.0 + truth_.wheel_radius_error[i]) - drive.velocity;
+    const double limit = config_.drive_torque_nm;
+    integral_[i] =
+        std::clamp(integral_[i] + config_.drive_integral_gain * slip * step_s, -limit, limit);
+    const double drive_torque = std::clamp(config_.drive_gain * slip + integral_[i], -limit, limit);
+    physics.setDriveTorque(i, drive_torque);
+    power_w_ += std::fabs(drive_torque * drive.velocity) + std::fabs(steer_torque * steer.velocity);
+  }
+}
+
+BaseState BaseDevice::report(Stamp now, const Physics& physics) const {
+  BaseState state;
+  state.stamp = now;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double scale = 1.0 / (1.0 + truth_.wheel_radius_error[i]);
+    const JointState drive = physics.drive(i);
+    state.wheels[i].steer_rad = physics.steer(i).position - truth_.steer_offset_rad[i];
+    state.wheels[i].drive_radps = drive.velocity * scale;
+    state.wheels[i].drive_angle_rad = drive.position * scale;
+  }
+  state.battery_a = config_.idle_a + power_w_ / config_.battery_v;
+  state.battery_v = config_.battery_v - config_.battery_ohm * state.battery_a;
+  return state;
+}
+
+}  // namespace kiln::sim

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "common/core/stamp.h"
+#include "common/model/sensor.h"
+#include "robot/hal/drive_base.h"
+#include "robot/sim/physics.h"
+
+namespace kiln::sim {
+
+/// Motor controllers of the four steered hub wheels. They know the nominal wheels only: a wheel's
+/// radius error acts between shaft and ground, its steering offset between encoder and wheel.
+/// Thread-compatible.
+class BaseDevice {
+ public:
+  BaseDevice(const BaseDeviceConfig& config, const RobotGeometry& robot, const TrueRobot& truth);
+
+  /// @return empty, or why the command was refused (then the watchdog keeps counting).
+  std::string write(Stamp now, const WheelCommands& command);
+  void reset();
+  void control(Stamp now, double step_s, Physics& physics);
+  [[nodiscard]] BaseState report(Stamp now, const Physics& physics) const;
+  [[nodiscard]] bool stoppedByWatchdog() const { return watchdog_stop_; }
+
+ private:
+  void followCommand(Stamp now, double step_s);
+
+  BaseDeviceConfig config_;
+  RobotGeometry robot_;
+  TrueRobot truth_;
+  WheelCommands command_{};
+  std::array<double, 4> steer_ref_{}, drive_ref_{}, integral_{};
+  double power_w_ = 0.0;
+  Stamp command_time_;
+  bool commanded_ = false;
+  bool watchdog_stop_ = true;
+};
+
+}  // namespace kiln::sim

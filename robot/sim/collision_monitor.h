@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "robot/sim/physics.h"
+#include "robot/sim/world.h"
+
+namespace kiln::sim {
+
+/// Contacts of the robot with anything but wheels on ground, above a force (scenario.md section 5).
+/// One entry a touch: the same pair counts again only after a second apart.
+class CollisionMonitor {
+ public:
+  explicit CollisionMonitor(double threshold_n) : threshold_n_(threshold_n) {}
+  void observe(Stamp now, const std::vector<BodyContact>& contacts);
+  [[nodiscard]] const std::vector<Collision>& collisions() const { return collisions_; }
+
+ private:
+  double threshold_n_;
+  std::vector<Collision> collisions_;
+  std::vector<Stamp> last_seen_;  ///< by collision
+};
+
+}  // namespace kiln::sim

@@ -1,0 +1,216 @@
+#include "robot/sim/colour_camera.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "common/geom/frames.h"
+#include "robot/sim/random.h"
+#include "robot/sim/ray_scene.h"
+#include "robot/sim/surface_look.h"
+
+namespace kiln::sim {
+namespace {
+
+constexpr int kBlock = 4;
+constexpr std::size_t kNoiseTable = 1u << 16;
+constexpr float kPaneTint = 0.20F;
+
+/// Everything seen along one ray.
+struct Sample {
+  Raycaster::Hit hit;
+  bool pane = false;  // acrylic in front
+  float sunlit = 1.0F;
+};
+
+}  // namespace
+
+struct ColourCamera::Impl {
+  Impl(const WorldConfig& config, const TrueArena& arena, const RobotGeometry& robot)
+      : camera(config.camera),
+        X_base_camera(arena.robot.X_base_operatorcamera),
+        scene(config, arena, robot, true),
+        columns(config.camera.width / kBlock + 1),
+        rows(config.camera.height / kBlock + 1),
+        focal(static_cast<float>(
+            CameraModel::fromHorizontalFov(config.camera.width, config.camera.height,
+                                           config.camera.hfov_deg * M_PI / 180.0)
+                .fx)) {
+    Random random(0, "camera noise");
+    for (std::size_t i = 0; i < kNoiseTable; ++i) {
+      noise.push_back(static_cast<std::int8_t>(std::lround(random.normal(config.camera.noise))));
+    }
+  }
+
+  /// Through a pixel, in map.
+  [[nodiscard]] Eigen::Vector3f direction(float u, float v) const {
+    const float x = (u - 0.5F * static_cast<float>(camera.width - 1)) / focal;
+    const float y = (v - 0.5F * static_cast<float>(camera.height - 1)) / focal;
+    return (R * Eigen::Vector3f(x, y, 1.0F)).normalized();
+  }
+  void castSamples(std::vector<Sample>& samples);
+  [[nodiscard]] Eigen::Vector3f colour(const Sample& s, const Eigen::Vector3f& d, float range,
+                                       float sunlit) const;
+  [[nodiscard]] bool plain(int column, int row) const;
+  void fillPlain(int column, int row, std::vector<std::uint8_t>& out);
+  void put(std::vector<std::uint8_t>& out, int u, int v, const Eigen::Vector3f& c) const;
+  [[nodiscard]] const Sample& corner(int column, int row) const {
+    return corners[static_cast<std::size_t>(row * columns + column)];
+  }
+
+  CameraConfig camera;
+  Eigen::Isometry3d X_base_camera;
+  RayScene scene;
+  Daylight light;
+  int columns, rows;
+  float focal;
+  Eigen::Matrix3f R;
+  Eigen::Vector3f origin;
+  std::vector<Raycaster::Ray> rays, sun_rays;
+  std::vector<Raycaster::Hit> hits, panes;
+  std::vector<std::uint8_t> shadows;
+  std::vector<Sample> corners, details;
+  std::vector<std::int8_t> noise;
+  std::size_t noise_at = 0;
+  std::uint64_t seq = 0;
+};
+
+/// For the rays in `rays`: nearest surface, acrylic before it, shadow on it.
+void ColourCamera::Impl::castSamples(std::vector<Sample>& samples) {
+  hits.resize(rays.size());
+  panes.resize(rays.size());
+  samples.assign(rays.size(), Sample{});
+  scene.rays().cast(rays, hits, true);
+  for (Raycaster::Ray& ray : rays) ray.mask = mask::kAcrylic;
+  scene.rays().cast(rays, panes, true);
+  sun_rays.clear();
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    samples[i].hit = hits[i];
+    samples[i].pane = panes[i].valid() && (!hits[i].valid() || panes[i].range < hits[i].range);
+    Raycaster::Ray sun;
+    sun.origin = rays[i].origin + hits[i].range * rays[i].direction + 0.003F * hits[i].normal;
+    sun.direction = light.to_sun;
+    sun.max_range = hits[i].valid() && hits[i].normal.dot(light.to_sun) > 0.0F ? 60.0F : 0.0F;
+    sun.mask = mask::kSolid | mask::kRobot;
+    sun_rays.push_back(sun);
+  }
+  shadows.assign(rays.size(), 0);
+  scene.rays().occluded(sun_rays, shadows);
+  for (std::size_t i = 0; i < rays.size(); ++i) samples[i].sunlit = shadows[i] != 0 ? 0.0F : 1.0F;
+}
+
+Eigen::Vector3f ColourCamera::Impl::colour(const Sample& s, const Eigen::Vector3f& d, float range,
+                                           float sunlit) const {
+  Eigen::Vector3f c = Daylight::sky(d);
+  if (s.hit.valid()) {
+    const SurfaceLook look = surfaceLook(RayScene::material(s.hit), origin + range * d,
+                                         s.hit.normal, scene.temperature(s.hit));
+    c = light.shade(look, s.hit.normal, sunlit);
+  }
+  if (s.pane) c += kPaneTint * (Eigen::Vector3f(206, 228, 232) - c);
+  return c;
+}
+
+/// Whether all four corners of a block see the same plane in the same way.
+bool ColourCamera::Impl::plain(int column, int row) const {
+  const Sample& a = corner(column, row);
+  for (const Sample* b :
+       {&corner(column + 1, row), &corner(column, row + 1), &corner(column + 1, row + 1)}) {
+    if (a.hit.instance != b->hit.instance || a.pane != b->pane) return false;
+    if (a.hit.valid() && a.hit.normal.dot(b->hit.normal) < 0.9999F) return false;
+  }
+  return true;
+}
+
+void ColourCamera::Impl::put(std::vector<std::uint8_t>& out, int u, int v,
+                             const Eigen::Vector3f& c) const {
+  std::uint8_t* pixel =
+      out.data() + 3 * (static_cast<std::size_t>(v) * static_cast<std::size_t>(camera.width) +
+                        static_cast<std::size_t>(u));
+  const int n = noise[(noise_at + static_cast<std::size_t>(v * 7919 + u * 31)) % kNoiseTable];
+  for (int k = 0; k < 3; ++k)
+    pixel[k] = static_cast<std::uint8_t>(std::clamp(static_cast<int>(c[k]) + n, 0, 255));
+}
+
+void ColourCamera::Impl::fillPlain(int column, int row, std::vector<std::uint8_t>& out) {
+  const Sample& a = corner(column, row);
+  const Sample &b = corner(column + 1, row), &c = corner(column, row + 1),
+               &e = corner(column + 1, row + 1);
+  const int u0 = column * kBlock, v0 = row * kBlock;
+  // The plane: n . (p - origin) = offset.
+  const float offset = a.hit.valid()
+                           ? a.hit.range * a.hit.normal.dot(direction(static_cast<float>(u0),
+                                                                      static_cast<float>(v0)))
+                           : 0.0F;
+  for (int dv = 0; dv < kBlock; ++dv) {
+    for (int du = 0; du < kBlock; ++du) {
+      const float x = static_cast<float>(du) / kBlock, y = static_cast<float>(dv) / kBlock;
+      const float sunlit = (1 - x) * (1 - y) * a.sunlit + x * (1 - y) * b.sunlit +
+                           (1 - x) * y * c.sunlit + x * y * e.sunlit;
+      const Eigen::Vector3f d = direction(static_cast<float>(u0 + du), static_cast<float>(v0 + dv));
+      const float facing = a.hit.valid() ? a.hit.normal.dot(d) : -1.0F;
+      const float range = std::fabs(facing) > 1e-6F ? offset / facing : a.hit.range;
+      put(out, u0 + du, v0 + dv, colour(a, d, range, sunlit));
+    }
+  }
+}
+
+ColourCamera::ColourCamera(const WorldConfig& config, const TrueArena& arena,
+                           const RobotGeometry& robot)
+    : impl_(std::make_unique<Impl>(config, arena, robot)) {}
+ColourCamera::~ColourCamera() = default;
+
+RgbImagePtr ColourCamera::render(const SceneState& state) {
+  Impl& w = *impl_;
+  w.scene.update(state);
+  const Eigen::Isometry3d X = state.X_map_base * w.X_base_camera;
+  w.R = X.linear().cast<float>();
+  w.origin = X.translation().cast<float>();
+  auto image = std::make_shared<RgbImage>();
+  image->stamp = state.stamp;
+  image->seq = ++w.seq;
+  image->frame = frames::kOperatorCamera;
+  image->width = w.camera.width;
+  image->height = w.camera.height;
+  image->data.resize(3 * static_cast<std::size_t>(w.camera.width) *
+                     static_cast<std::size_t>(w.camera.height));
+  w.noise_at = static_cast<std::size_t>(w.seq * 40503u) % kNoiseTable;
+
+  w.rays.clear();
+  for (int row = 0; row < w.rows; ++row) {
+    for (int column = 0; column < w.columns; ++column) {
+      w.rays.push_back(
+          {w.origin,
+           w.direction(static_cast<float>(column * kBlock), static_cast<float>(row * kBlock)), 1e4F,
+           mask::kColour});
+    }
+  }
+  w.castSamples(w.corners);
+  std::vector<std::pair<int, int>> busy;
+  w.rays.clear();
+  for (int row = 0; row + 1 < w.rows; ++row) {
+    for (int column = 0; column + 1 < w.columns; ++column) {
+      if (w.plain(column, row)) {
+        w.fillPlain(column, row, image->data);
+        continue;
+      }
+      busy.emplace_back(column, row);
+      for (int k = 0; k < kBlock * kBlock; ++k) {
+        const float u = static_cast<float>(column * kBlock + k % kBlock),
+                    v = static_cast<float>(row * kBlock + k / kBlock);
+        w.rays.push_back({w.origin, w.direction(u, v), 1e4F, mask::kColour});
+      }
+    }
+  }
+  w.castSamples(w.details);
+  for (std::size_t i = 0; i < w.details.size(); ++i) {
+    const auto [column, row] = busy[i / (kBlock * kBlock)];
+    const int k = static_cast<int>(i % (kBlock * kBlock));
+    const Sample& s = w.details[i];
+    w.put(image->data, column * kBlock + k % kBlock, row * kBlock + k / kBlock,
+          w.colour(s, w.rays[i].direction, s.hit.range, s.sunlit));
+  }
+  return image;
+}
+
+}  // namespace kiln::sim

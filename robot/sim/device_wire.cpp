@@ -1,0 +1,107 @@
+#include "robot/sim/device_wire.h"
+
+namespace kiln::sim {
+namespace {
+
+template <class T>
+std::string bytes(const std::vector<T>& values) {
+  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
+}
+
+void writeLidar(const PointCloud& scan, v1::device::LidarScan& m) {
+  m.set_stamp_ns(toNanoseconds(scan.stamp));
+  m.set_seq(scan.seq);
+  std::string xyz;
+  xyz.reserve(3 * scan.size() * sizeof(float));
+  for (const auto* axis : {&scan.x, &scan.y, &scan.z}) xyz += bytes(*axis);
+  m.set_xyz_f32(std::move(xyz));
+  m.set_intensity(bytes(scan.intensity));
+  m.set_ring(bytes(scan.ring));
+  m.set_time_offset_f32(bytes(scan.time_offset_s));
+}
+
+void writeThermal(const ThermalImage& image, v1::device::ThermalFrame& m) {
+  m.set_stamp_ns(toNanoseconds(image.stamp));
+  m.set_seq(image.seq);
+  m.set_frame_counter(image.frame_counter);
+  m.set_counts_u16(bytes(image.counts));
+  m.set_ffc(static_cast<std::uint32_t>(image.ffc));
+}
+
+void writeColour(const RgbImage& image, v1::device::ColourFrame& m) {
+  m.set_stamp_ns(toNanoseconds(image.stamp));
+  m.set_seq(image.seq);
+  m.set_width(static_cast<std::uint32_t>(image.width));
+  m.set_height(static_cast<std::uint32_t>(image.height));
+  m.set_rgb(bytes(image.data));
+}
+
+}  // namespace
+
+Result<WorldCommands> fromProto(const v1::device::Advance& m) {
+  WorldCommands c;
+  if (m.has_arm()) {
+    if (m.arm().q_rad_size() != 6 || m.arm().qd_radps_size() != 6) {
+      return makeError(ErrorCode::Truncated,
+                       "arm command has {} positions and {} speeds; it needs 6 of each",
+                       m.arm().q_rad_size(), m.arm().qd_radps_size());
+    }
+    c.arm.emplace();
+    for (int i = 0; i < 6; ++i) {
+      c.arm->q[i] = m.arm().q_rad(i);
+      c.arm->qd[i] = m.arm().qd_radps(i);
+    }
+  }
+  if (m.has_base()) {
+    if (m.base().wheels_size() != 4) {
+      return makeError(ErrorCode::Truncated, "base command has {} wheels; it needs 4",
+                       m.base().wheels_size());
+    }
+    c.base.emplace();
+    for (int i = 0; i < 4; ++i) {
+      (*c.base)[static_cast<std::size_t>(i)] = {m.base().wheels(i).steer_rad(),
+                                                m.base().wheels(i).drive_radps()};
+    }
+  }
+  if (m.has_pumps()) c.pumps = {m.pumps().left(), m.pumps().right()};
+  if (m.has_sensors()) {
+    c.sensors =
+        SensorRequest{m.sensors().lidar(), m.sensors().thermal(), m.sensors().operator_camera()};
+  }
+  c.release_protective_stop = m.release_protective_stop();
+  c.request_reset = m.request_reset();
+  return c;
+}
+
+void toProto(const WorldReport& report, v1::device::Report& m) {
+  m.set_now_ns(toNanoseconds(report.now));
+  m.set_seq(report.seq);
+  for (int i = 0; i < 6; ++i) {
+    m.mutable_arm()->add_q_rad(report.arm.q[i]);
+    m.mutable_arm()->add_qd_radps(report.arm.qd[i]);
+    m.mutable_arm()->add_wrench(report.arm.wrench_tool[i]);
+  }
+  m.mutable_arm()->set_safety(static_cast<std::uint32_t>(report.arm.safety));
+  m.mutable_arm()->set_powered(report.arm.powered);
+  for (const WheelState& wheel : report.base.wheels) {
+    v1::device::Wheel* out = m.mutable_base()->add_wheels();
+    out->set_steer_rad(wheel.steer_rad);
+    out->set_drive_radps(wheel.drive_radps);
+    out->set_drive_angle_rad(wheel.drive_angle_rad);
+  }
+  m.mutable_base()->set_battery_v(report.base.battery_v);
+  m.mutable_base()->set_battery_a(report.base.battery_a);
+  for (std::size_t i = 0; i < 2; ++i) {
+    m.mutable_pumps()->add_duty(report.pumps.duty[i]);
+    m.mutable_pumps()->add_current_a(report.pumps.current_a[i]);
+  }
+  m.mutable_pumps()->set_contact_switch(report.pumps.contact_switch);
+  m.mutable_pumps()->set_heartbeat_lost(report.pumps.heartbeat_lost);
+  for (const PointCloudPtr& scan : report.lidar) writeLidar(*scan, *m.add_lidar());
+  for (const ThermalImagePtr& image : report.thermal) writeThermal(*image, *m.add_thermal());
+  for (const RgbImagePtr& image : report.colour) writeColour(*image, *m.add_colour());
+  m.set_resets(report.resets);
+  m.set_refused(report.refused);
+}
+
+}  // namespace kiln::sim

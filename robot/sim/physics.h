@@ -1,0 +1,65 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "robot/sim/true_arena.h"
+
+namespace kiln::sim {
+
+struct JointState {
+  double position = 0.0;  ///< rad
+  double velocity = 0.0;  ///< rad/s
+};
+
+/// One touching pair of bodies in one step, contact points summed.
+struct BodyContact {
+  std::string a, b;    ///< geom names, a on the robot; arena names without their index
+  bool wheel = false;  ///< a is a wheel
+  bool floor = false;  ///< b is the floor
+  bool arm = false;    ///< a belongs to arm, head or hose (and b is not of the arm)
+  double normal_n = 0.0;
+  Eigen::Vector3d force_on_a = Eigen::Vector3d::Zero();  ///< N in map
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();       ///< mean contact point in map
+};
+
+/// MuJoCo behind plain values: the robot on its wheels among the arena's boxes. One step is
+/// PhysicsConfig::step_s. A MuJoCo error or an unstable step ends the process with a message (exit
+/// status 3): the world would be meaningless. Thread-compatible.
+class Physics {
+ public:
+  [[nodiscard]] static Result<std::unique_ptr<Physics>> create(const WorldConfig& config,
+                                                               const TrueArena& arena,
+                                                               const RobotGeometry& robot);
+  ~Physics();
+
+  void step();
+  /// Puts the robot at rest there. The rest of the world stays as it is.
+  void carryTo(const Pose2& X_map_base, const Vector6d& q);
+  void placeObstacle(const Eigen::Vector3d& p_map);
+
+  void setSteerTorque(std::size_t wheel, double torque_nm);
+  void setDriveTorque(std::size_t wheel, double torque_nm);
+  /// Joint torques that give the arm this acceleration against gravity and its own inertia, cut at
+  /// the limits.
+  /// @return the unlimited torques.
+  Vector6d accelerateArm(const Vector6d& qdd_radps2);
+
+  [[nodiscard]] JointState steer(std::size_t wheel) const;
+  [[nodiscard]] JointState drive(std::size_t wheel) const;
+  [[nodiscard]] Vector6d armPosition() const;
+  [[nodiscard]] Vector6d armVelocity() const;
+  [[nodiscard]] Eigen::Isometry3d X_map_base() const;
+  /// Linear velocity (map) of a point fixed to the flange.
+  [[nodiscard]] Eigen::Vector3d flangePointVelocity(const Eigen::Vector3d& p_map) const;
+  [[nodiscard]] const std::vector<BodyContact>& contacts() const;
+
+ private:
+  struct Impl;
+  explicit Physics(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace kiln::sim

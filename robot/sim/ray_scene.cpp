@@ -1,0 +1,203 @@
+#include "robot/sim/ray_scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kiln::sim {
+namespace {
+
+constexpr std::size_t kMaxDrops = 96;
+constexpr double kDropRadius =
+    0.009;  // drawn larger than the true 4 mm, else a drop is no pixel wide
+constexpr double kObstacleSize = 0.2;  // as in the physics model
+constexpr int kFlameStrips = 5;
+
+std::uint32_t number(Material m) { return static_cast<std::uint32_t>(m); }
+
+Eigen::Isometry3d alongZ(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
+  X.translation() = 0.5 * (from + to);
+  X.linear() =
+      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), to - from).toRotationMatrix();
+  return X;
+}
+
+std::uint32_t arenaMask(Material m) {
+  if (m == Material::Acrylic) return mask::kAcrylic;
+  if (m == Material::WarmPatch) return mask::kWarmPatch;
+  return mask::kSolid;
+}
+
+}  // namespace
+
+RayScene::RayScene(const WorldConfig& config, const TrueArena& arena, const RobotGeometry& robot,
+                   bool with_drops)
+    : robot_(robot), fire_(config.fire) {
+  addArena(arena);
+  for (const TrueFirePlace& place : arena.fire_places) addFirePlace(place);
+  addRobot(arena);
+  for (std::size_t i = 0; with_drops && i < kMaxDrops; ++i) {
+    drops_.push_back(note(rays_.addSphere(kDropRadius, {0, 0, -5}, number(Material::Water), 0),
+                          fire_.ambient_c));
+  }
+  obstacle_ = note(rays_.addBox(Eigen::Vector3d::Constant(kObstacleSize),
+                                Eigen::Isometry3d::Identity(), number(Material::Obstacle), 0),
+                   fire_.ambient_c);
+  update(SceneState{});
+}
+
+Raycaster::Id RayScene::note(Raycaster::Id id, double temperature_c) {
+  temperature_c_.resize(id + 1, fire_.ambient_c);
+  temperature_c_[id] = temperature_c;
+  return id;
+}
+
+void RayScene::addArena(const TrueArena& arena) {
+  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
+  X.translation().z() = -0.5;
+  note(rays_.addBox({200, 200, 1}, X, number(Material::Floor), mask::kSolid), fire_.ambient_c);
+  for (const SolidBox& b : arena.boxes) {
+    note(rays_.addBox(b.size_m, b.X_map_box, number(b.material), arenaMask(b.material)),
+         b.temperature_c);
+  }
+}
+
+void RayScene::addFirePlace(const TrueFirePlace& place) {
+  for (const SolidBox& b : place.boxes) {
+    note(rays_.addBox(b.size_m, b.X_map_box, number(b.material), arenaMask(b.material)),
+         b.temperature_c);
+  }
+  const Eigen::Vector3d p = place.p_front_plate;
+  const Eigen::Isometry3d X_plate = place.X_map_front * alongZ(p - Eigen::Vector3d(0.01, 0, 0), p);
+  const auto plate = note(
+      rays_.addCylinder(0.5 * place.plate_m, 0.01, X_plate, number(Material::Plate), mask::kSolid),
+      fire_.ambient_c);
+  if (!place.burning) return;
+  burning_plate_.push_back(plate);
+  X_map_fire_ = place.X_map_front;
+  p_front_plate_ = p;
+  plate_m_ = place.plate_m;
+  reflection_ratio_ = place.reflection_ratio;
+  for (int i = 0; i < kFlameStrips; ++i) {
+    flame_.push_back(
+        note(rays_.addBox({0.004, 0.025, 0.16}, X_map_fire_, number(Material::Flame), mask::kSilk),
+             fire_.flame_c));
+  }
+  // The front panel mirrors part of the plate beside the opening: an infrared ghost, cooler than
+  // the plate.
+  const double side = 0.5 * place.opening_m + 0.055;
+  const Eigen::Vector3d ghost(0.001, side, 0.03);
+  const Eigen::Isometry3d X_ghost =
+      X_map_fire_ * alongZ(ghost, ghost + Eigen::Vector3d(0.001, 0, 0));
+  reflection_.push_back(
+      note(rays_.addCylinder(0.035, 0.001, X_ghost, number(Material::Reflection), mask::kWarmPatch),
+           fire_.ambient_c));
+}
+
+void RayScene::addCapsule(int link, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                          double radius, Material m) {
+  const auto add = [&](Raycaster::Id id, const Eigen::Isometry3d& X) {
+    moving_.push_back({note(id, fire_.ambient_c), link, X});
+  };
+  const Eigen::Isometry3d X = alongZ(from, to);
+  add(rays_.addCylinder(radius, (to - from).norm(), X, number(m), mask::kRobot), X);
+  const Material joint = m == Material::ArmLink ? Material::ArmJoint : m;
+  for (const Eigen::Vector3d& end : {from, to}) {
+    add(rays_.addSphere(1.02 * radius, end, number(joint), mask::kRobot),
+        Eigen::Isometry3d(Eigen::Translation3d(end)));
+  }
+}
+
+void RayScene::addRobot(const TrueArena& arena) {
+  const auto box = [&](const BoxConfig& part, int link, Material m) {
+    const Eigen::Vector3d size(part.size_m[0], part.size_m[1], part.size_m[2]);
+    const Eigen::Isometry3d X = part.center.pose();
+    moving_.push_back(
+        {note(rays_.addBox(size, X, number(m), mask::kRobot), fire_.ambient_c), link, X});
+  };
+  for (const BoxConfig& part : robot_.body)
+    box(part, 0, part.name.starts_with("tank") ? Material::Tank : Material::Chassis);
+  const UrKinematics& k = robot_.arm;
+  for (std::size_t i = 0; i < 6; ++i) {
+    // The link from frame i to frame i + 1, seen from frame i + 1 (its end).
+    const Eigen::Isometry3d X_end_start = (Eigen::Translation3d(k.a[i], 0, k.d[i]) *
+                                           Eigen::AngleAxisd(k.alpha[i], Eigen::Vector3d::UnitX()))
+                                              .inverse(Eigen::Isometry);
+    const double radius = 0.95 * robot_.link_radius_m[i];
+    const Eigen::Vector3d start = X_end_start.translation();
+    addCapsule(static_cast<int>(i) + 1, start, Eigen::Vector3d::Zero(), radius, Material::ArmLink);
+    if (i == 1 || i == 2) {  // the hose runs along the upper arm and the forearm
+      const Eigen::Vector3d beside(0, 0, radius + 0.008);
+      addCapsule(static_cast<int>(i) + 1, start + beside, beside, 0.012, Material::Hose);
+    }
+  }
+  for (const BoxConfig& part : robot_.head) box(part, 6, Material::Head);
+  const Eigen::Vector3d tip = arena.robot.X_flange_nozzle.translation();
+  addCapsule(6, tip - 0.10 * arena.robot.X_flange_nozzle.linear().col(0),
+             tip - Eigen::Vector3d(0, 0, 0.01), 0.01, Material::Hose);
+  addWheels();
+}
+
+void RayScene::addWheels() {
+  for (Raycaster::Id& wheel : wheels_) {
+    wheel = note(rays_.addCylinder(robot_.wheel_radius_m, 0.05, Eigen::Isometry3d::Identity(),
+                                   number(Material::Wheel), mask::kRobot),
+                 fire_.ambient_c);
+  }
+}
+
+void RayScene::updateRobot(const SceneState& state) {
+  const Eigen::Isometry3d X_map_armbase = state.X_map_base * robot_.X_base_armbase.pose();
+  const auto frames = robot_.arm.frames(state.q);
+  std::array<Eigen::Isometry3d, 7> X_map_link;
+  X_map_link[0] = state.X_map_base;
+  for (std::size_t i = 0; i < 6; ++i) X_map_link[i + 1] = X_map_armbase * frames[i];
+  for (const Moving& part : moving_)
+    rays_.setPose(part.id, X_map_link[static_cast<std::size_t>(part.link)] * part.X_link_shape);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double x = i < 2 ? robot_.wheel_x_m : -robot_.wheel_x_m,
+                 y = i % 2 == 0 ? robot_.wheel_y_m : -robot_.wheel_y_m;
+    rays_.setPose(wheels_[i], state.X_map_base * Eigen::Translation3d(x, y, robot_.wheel_radius_m) *
+                                  Eigen::AngleAxisd(state.steer_rad[i], Eigen::Vector3d::UnitZ()) *
+                                  Eigen::AngleAxisd(0.5 * M_PI, Eigen::Vector3d::UnitX()));
+  }
+}
+
+/// Strips of silk above and behind the plate, blown about: three incommensurate swings each.
+void RayScene::updateFire(const SceneState& state) {
+  const double t = toSeconds(state.stamp);
+  for (std::size_t i = 0; i < flame_.size(); ++i) {
+    const double phase = 1.7 * static_cast<double>(i);
+    const double y = p_front_plate_.y() + (static_cast<double>(i) - 2.0) * 0.028 +
+                     0.008 * std::sin(7.3 * t + phase);
+    const double tilt = 0.25 * std::sin(5.1 * t + 2 * phase) + 0.15 * std::sin(11.7 * t + phase);
+    const double height = 0.02 * std::sin(9.1 * t + phase);
+    rays_.setPose(flame_[i], X_map_fire_ *
+                                 Eigen::Translation3d(p_front_plate_.x() - 0.05, y, 0.06 + height) *
+                                 Eigen::AngleAxisd(tilt, Eigen::Vector3d::UnitX()));
+  }
+  for (const Raycaster::Id id : burning_plate_) temperature_c_[id] = state.plate_c;
+  for (const Raycaster::Id id : reflection_)
+    temperature_c_[id] = fire_.ambient_c + reflection_ratio_ * (state.plate_c - fire_.ambient_c);
+}
+
+void RayScene::update(const SceneState& state) {
+  updateRobot(state);
+  updateFire(state);
+  const std::size_t shown = std::min(drops_.size(), state.drops.size());
+  for (std::size_t i = 0; i < std::max(shown, drops_shown_); ++i) {
+    rays_.setMask(drops_[i], i < shown ? mask::kLightOnly : 0);
+    if (i < shown)
+      rays_.setPose(drops_[i], Eigen::Isometry3d(Eigen::Translation3d(state.drops[i])));
+  }
+  drops_shown_ = shown;
+  if (state.obstacle || obstacle_shown_) {
+    obstacle_shown_ = state.obstacle.has_value();
+    rays_.setMask(obstacle_, obstacle_shown_ ? mask::kSolid : 0);
+    if (obstacle_shown_)
+      rays_.setPose(obstacle_, Eigen::Isometry3d(Eigen::Translation3d(*state.obstacle)));
+  }
+  rays_.commit();
+}
+
+}  // namespace kiln::sim

@@ -1,0 +1,94 @@
+#include "robot/sim/sensor_suite.h"
+
+#include <algorithm>
+
+namespace kiln::sim {
+namespace {
+
+SceneState between(const SceneState& a, const SceneState& b) {
+  SceneState mid = b;
+  mid.stamp = a.stamp + (b.stamp - a.stamp) / 2;
+  mid.X_map_base = interpolate(a.X_map_base, b.X_map_base, 0.5);
+  mid.q = 0.5 * (a.q + b.q);
+  return mid;
+}
+
+}  // namespace
+
+SensorSuite::SensorSuite(const WorldConfig& config, const TrueArena& arena,
+                         const RobotGeometry& robot, std::uint64_t seed, bool render_colour)
+    : config_(config),
+      arena_(arena),
+      robot_(robot),
+      scene_(config, arena, robot, false),
+      lidar_(config.lidar, robot, arena.robot, seed),
+      thermal_(config.thermal, robot, arena.robot, seed),
+      render_colour_(render_colour) {}
+
+void SensorSuite::request(const SensorRequest& request) {
+  if (!request.lidar || !request_.lidar) {
+    lidar_.restart();
+    chunk_start_.reset();
+  }
+  if (!request.thermal) next_thermal_.reset();
+  if (!request.operator_camera) next_colour_.reset();
+  request_ = request;
+}
+
+void SensorSuite::runLidar(const SceneState& state, const FaultScript& faults) {
+  if (!chunk_start_) {
+    chunk_start_ = state;
+    return;
+  }
+  if (toSeconds(state.stamp - chunk_start_->stamp) < config_.lidar.chunk_s - 1e-9) return;
+  scene_.update(between(*chunk_start_, state));
+  PointCloudPtr scan = lidar_.advance(*chunk_start_, state, scene_);
+  chunk_start_ = state;
+  if (scan && !faults.active("lidar_dropout", state.stamp))
+    frames_.lidar.push_back(std::move(scan));
+}
+
+void SensorSuite::runThermal(const SceneState& state, const FaultScript& faults) {
+  if (!next_thermal_) next_thermal_ = thermal_.nextFrame(state.stamp);
+  if (state.stamp < *next_thermal_) return;
+  scene_.update(state);
+  frames_.thermal.push_back(
+      thermal_.capture(state, scene_, faults.active("thermal_freeze", state.stamp)));
+  next_thermal_ = thermal_.nextFrame(state.stamp);
+}
+
+void SensorSuite::runColour(const SceneState& state, const FaultScript& faults,
+                            const std::function<std::vector<Eigen::Vector3d>()>& drops) {
+  const Duration period = fromSeconds(1.0 / config_.camera.rate_hz);
+  if (!next_colour_) next_colour_ = state.stamp + period;
+  if (state.stamp < *next_colour_) return;
+  next_colour_ = std::max(*next_colour_ + period, state.stamp + period / 2);
+  if (faults.active("camera_freeze", state.stamp)) return;
+  SceneState picture = state;
+  picture.drops = drops();
+  if (!render_colour_) {
+    colour_due_ = std::move(picture);
+    return;
+  }
+  if (!colour_) colour_ = std::make_unique<ColourCamera>(config_, arena_, robot_);
+  frames_.colour.push_back(colour_->render(picture));
+}
+
+void SensorSuite::afterStep(const SceneState& state, const FaultScript& faults,
+                            const std::function<std::vector<Eigen::Vector3d>()>& drops) {
+  if (request_.lidar) runLidar(state, faults);
+  if (request_.thermal) runThermal(state, faults);
+  if (request_.operator_camera) runColour(state, faults, drops);
+}
+
+void SensorSuite::takeFrames(WorldReport& report) {
+  report.lidar = std::exchange(frames_.lidar, {});
+  report.thermal = std::exchange(frames_.thermal, {});
+  report.colour = std::exchange(frames_.colour, {});
+}
+
+std::optional<SceneState> SensorSuite::takeColourDue() {
+  return std::exchange(colour_due_, std::nullopt);
+}
+
+}  // namespace kiln::sim

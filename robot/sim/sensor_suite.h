@@ -1,0 +1,51 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "robot/sim/colour_camera.h"
+#include "robot/sim/fault_script.h"
+#include "robot/sim/lidar_sensor.h"
+#include "robot/sim/thermal_sensor.h"
+#include "robot/sim/world.h"
+
+namespace kiln::sim {
+
+/// Runs the requested sensors at their own rates and collects their frames. Confined to the world's
+/// thread.
+class SensorSuite {
+ public:
+  SensorSuite(const WorldConfig& config, const TrueArena& arena, const RobotGeometry& robot,
+              std::uint64_t seed, bool render_colour);
+
+  void request(const SensorRequest& request);
+  /// After each physics step. @param drops called only when a picture needs them.
+  void afterStep(const SceneState& state, const FaultScript& faults,
+                 const std::function<std::vector<Eigen::Vector3d>()>& drops);
+  void takeFrames(WorldReport& report);
+  [[nodiscard]] std::optional<SceneState> takeColourDue();
+  [[nodiscard]] const Raycaster& rays() const { return scene_.rays(); }
+  [[nodiscard]] const ThermalSensor& thermal() const { return thermal_; }
+
+ private:
+  void runLidar(const SceneState& state, const FaultScript& faults);
+  void runThermal(const SceneState& state, const FaultScript& faults);
+  void runColour(const SceneState& state, const FaultScript& faults,
+                 const std::function<std::vector<Eigen::Vector3d>()>& drops);
+
+  WorldConfig config_;
+  TrueArena arena_;
+  RobotGeometry robot_;
+  RayScene scene_;
+  LidarSensor lidar_;
+  ThermalSensor thermal_;
+  std::unique_ptr<ColourCamera> colour_;  ///< made at the first picture
+  bool render_colour_;
+  SensorRequest request_;
+  std::optional<SceneState> chunk_start_;
+  std::optional<Stamp> next_thermal_, next_colour_;
+  std::optional<SceneState> colour_due_;
+  WorldReport frames_;  ///< only its three frame lists
+};
+
+}  // namespace kiln::sim

@@ -1,0 +1,103 @@
+#include "robot/sim/surface_look.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kiln::sim {
+namespace {
+
+using Colour = Eigen::Vector3f;
+
+Colour mix(const Colour& a, const Colour& b, float share) {
+  return a + std::clamp(share, 0.0F, 1.0F) * (b - a);
+}
+
+/// Distance to the nearest line of a grid.
+float gridDistance(float x, float pitch) { return std::fabs(x - pitch * std::round(x / pitch)); }
+
+bool inBuilding(const Eigen::Vector3f& p) {
+  return p.x() > 5.0F && p.x() < 14.0F && std::fabs(p.y()) < 6.0F;
+}
+
+Colour floorColour(const Eigen::Vector3f& p) {
+  if (!inBuilding(p)) {
+    const bool line = std::min(gridDistance(p.x(), 2.0F), gridDistance(p.y(), 2.0F)) < 0.02F;
+    return line ? Colour(150, 148, 142) : Colour(128, 126, 122);
+  }
+  const bool joint = std::min(gridDistance(p.x(), 0.5F), gridDistance(p.y(), 0.5F)) < 0.008F;
+  if (joint) return {120, 112, 104};
+  const int tile =
+      static_cast<int>(std::floor(p.x() / 0.5F)) + static_cast<int>(std::floor(p.y() / 0.5F));
+  return tile % 2 == 0 ? Colour(196, 184, 168) : Colour(184, 172, 156);
+}
+
+Colour wallColour(const Eigen::Vector3f& p, const Eigen::Vector3f& normal) {
+  if (p.z() < 0.10F) return {96, 88, 82};  // skirting
+  if (std::fabs(normal.z()) < 0.5F && p.z() > 1.10F && p.z() < 1.14F) return {150, 158, 160};
+  return p.z() < 1.10F ? Colour(186, 196, 196) : Colour(222, 220, 212);
+}
+
+Colour plateColour(double temperature_c) {
+  // Red heat needs 500 degC; the show glows, so that an operator sees which place burns.
+  return mix({92, 92, 98}, {255, 126, 24}, static_cast<float>((temperature_c - 30.0) / 90.0));
+}
+
+}  // namespace
+
+SurfaceLook surfaceLook(Material material, const Eigen::Vector3f& p, const Eigen::Vector3f& normal,
+                        double temperature_c) {
+  switch (material) {
+    case Material::Floor:
+      return {floorColour(p), false};
+    case Material::Wall:
+      return {wallColour(p, normal), false};
+    case Material::Furniture:
+      return {normal.z() > 0.5F ? Colour(176, 142, 104) : Colour(150, 112, 76), false};
+    case Material::Table:
+      return {normal.z() > 0.5F ? Colour(150, 154, 160) : Colour(110, 114, 120), false};
+    case Material::Frame:
+      return {Colour(64, 66, 72), false};
+    case Material::Plate:
+      return {plateColour(temperature_c), temperature_c > 40.0};
+    case Material::Flame:
+      return {mix({255, 150, 20}, {255, 232, 120}, 3.0F * std::fabs(std::sin(40.0F * p.z()))),
+              true};
+    case Material::WarmBody:
+      return {Colour(70, 98, 150), false};
+    case Material::Chassis:
+      return {normal.z() > 0.5F ? Colour(78, 82, 88) : Colour(58, 62, 68), false};
+    case Material::Tank:
+      return {Colour(120, 170, 210), false};
+    case Material::ArmLink:
+      return {Colour(206, 210, 214), false};
+    case Material::ArmJoint:
+      return {Colour(96, 150, 196), false};
+    case Material::Head:
+      return {Colour(74, 76, 80), false};
+    case Material::Hose:
+      return {Colour(40, 92, 168), false};
+    case Material::Wheel:
+      return {Colour(34, 34, 36), false};
+    case Material::Water:
+      return {Colour(196, 226, 255), true};
+    case Material::Obstacle:
+      return {Colour(214, 60, 60), false};
+    default:
+      return {};
+  }
+}
+
+Eigen::Vector3f Daylight::shade(const SurfaceLook& look, const Eigen::Vector3f& normal,
+                                float sunlit) const {
+  if (look.glows) return look.colour;
+  const float sky_light = 0.50F + 0.14F * normal.z();
+  const float sun_light = 0.62F * sunlit * std::max(0.0F, normal.dot(to_sun));
+  const Eigen::Vector3f warm(1.0F, 0.97F, 0.90F), cool(0.94F, 0.97F, 1.0F);
+  return look.colour.cwiseProduct(sky_light * cool + sun_light * warm);
+}
+
+Eigen::Vector3f Daylight::sky(const Eigen::Vector3f& direction) {
+  return mix({206, 220, 234}, {104, 156, 218}, 2.2F * direction.z());
+}
+
+}  // namespace kiln::sim

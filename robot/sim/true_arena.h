@@ -1,0 +1,83 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "robot/scene/arena_map.h"
+#include "robot/sim/world_config.h"
+
+namespace kiln::sim {
+
+/// What a surface is made of; decides what LiDAR, thermal camera, operator camera, physics and
+/// water make of it.
+enum class Material : std::uint8_t {
+  Floor,
+  Wall,
+  Furniture,
+  Table,
+  Acrylic,
+  Frame,
+  Plate,
+  Flame,
+  Reflection,
+  WarmBody,
+  WarmPatch,
+  Chassis,
+  Tank,
+  ArmLink,
+  ArmJoint,
+  Head,
+  Hose,
+  Wheel,
+  Water,
+  Obstacle
+};
+
+struct SolidBox {
+  std::string name;
+  Material material = Material::Wall;
+  Eigen::Isometry3d X_map_box = Eigen::Isometry3d::Identity();
+  Eigen::Vector3d size_m = Eigen::Vector3d::Ones();
+  bool solid = true;  ///< physics and water; false: rays only
+  double temperature_c = 25.0;
+};
+
+/// A fire place as it truly stands. Frame `front`: centre of the opening, in the outer face of the
+/// box, X outward.
+struct TrueFirePlace {
+  std::string name;
+  Eigen::Isometry3d X_map_front = Eigen::Isometry3d::Identity();
+  Eigen::Vector3d p_front_plate = Eigen::Vector3d::Zero();
+  double box_m = 0.4, opening_m = 0.15, plate_m = 0.15;
+  bool burning = false;
+  double reflection_ratio = 0.0;  ///< excess of the mirror image over that of the plate
+  std::vector<SolidBox> boxes;    ///< table, frame, acrylic panels
+  [[nodiscard]] Eigen::Vector3d plateInMap() const { return X_map_front * p_front_plate; }
+};
+
+/// The robot as it truly is: everything that differs from the nominal model.
+struct TrueRobot {
+  std::array<double, 4> wheel_radius_error{};  ///< relative
+  std::array<double, 4> steer_offset_rad{};
+  Eigen::Isometry3d X_flange_lidar, X_flange_thermal, X_flange_nozzle, X_base_operatorcamera;
+};
+
+/// The world drawn for one seed: scenario.md section 3. Nothing here is ever sent to the robot.
+struct TrueArena {
+  std::vector<SolidBox> boxes;  ///< walls, furniture, distractors
+  std::vector<TrueFirePlace> fire_places;
+  std::size_t burning = 0;
+  TrueRobot robot;
+  Pose2 nominal_start;
+
+  [[nodiscard]] static TrueArena draw(const WorldConfig& config, const ArenaMap& nominal,
+                                      const RobotGeometry& robot, std::uint64_t seed);
+};
+
+/// Where the people put the robot: the nominal start with the error of `count`-th carrying (0 =
+/// first start).
+[[nodiscard]] Pose2 drawStart(const PerturbationConfig& config, const Pose2& nominal,
+                              std::uint64_t seed, std::uint32_t count);
+
+}  // namespace kiln::sim

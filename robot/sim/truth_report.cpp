@@ -1,0 +1,130 @@
+#include "robot/sim/truth_report.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+#include <fcntl.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+namespace kiln::sim {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json json(const Eigen::Vector3d& p) { return Json::array({p.x(), p.y(), p.z()}); }
+
+Json json(const Eigen::Isometry3d& X) {
+  const Eigen::Quaterniond q(X.linear());
+  return {{"xyz_m", json(Eigen::Vector3d(X.translation()))},
+          {"wxyz", Json::array({q.w(), q.x(), q.y(), q.z()})}};
+}
+
+Json json(const Pose2& X) { return {{"x_m", X.x_m}, {"y_m", X.y_m}, {"yaw_rad", X.yaw_rad}}; }
+
+Json json(const Vector6d& q) { return Json::array({q[0], q[1], q[2], q[3], q[4], q[5]}); }
+
+Json firePlaces(const Truth& t) {
+  Json out = Json::array();
+  for (std::size_t i = 0; i < t.arena.fire_places.size(); ++i) {
+    const TrueFirePlace& place = t.arena.fire_places[i];
+    out.push_back({{"name", place.name},
+                   {"burning", place.burning},
+                   {"litres", t.litres_delivered[i]},
+                   {"plate_xyz_m", json(place.plateInMap())},
+                   {"opening", json(place.X_map_front)}});
+  }
+  return out;
+}
+
+Json perturbations(const Truth& t) {
+  const TrueRobot& r = t.arena.robot;
+  Json boxes = Json::array();
+  for (const SolidBox& b : t.arena.boxes) {
+    boxes.push_back({{"name", b.name},
+                     {"xyz_m", json(Eigen::Vector3d(b.X_map_box.translation()))},
+                     {"size_m", json(b.size_m)},
+                     {"temperature_c", b.temperature_c}});
+  }
+  return {{"wheel_radius_error", r.wheel_radius_error},
+          {"steer_offset_rad", r.steer_offset_rad},
+          {"pump_full_flow_lpm", t.full_flow_lpm},
+          {"X_flange_lidar", json(r.X_flange_lidar)},
+          {"X_flange_thermal", json(r.X_flange_thermal)},
+          {"X_flange_nozzle", json(r.X_flange_nozzle)},
+          {"X_base_operatorcamera", json(r.X_base_operatorcamera)},
+          {"boxes", boxes}};
+}
+
+}  // namespace
+
+std::string truthJson(const Truth& t) {
+  Json starts = Json::array();
+  for (const Pose2& start : t.starts) starts.push_back(json(start));
+  Json collisions = Json::array();
+  for (const Collision& c : t.collisions) {
+    collisions.push_back(
+        {{"t_s", toSeconds(c.time)}, {"robot", c.a}, {"other", c.b}, {"force_n", c.force_n}});
+  }
+  const Json out = {{"seed", t.seed},
+                    {"world", t.world},
+                    {"simulated_s", toSeconds(t.now)},
+                    {"litres_delivered", t.litres_delivered},
+                    {"burning", t.burning},
+                    {"burning_name", t.place_names.empty() ? "" : t.place_names[t.burning]},
+                    {"score", t.score},
+                    {"collisions", collisions},
+                    {"resets", t.resets},
+                    {"pump_on_s", t.pump_on_s},
+                    {"litres_emitted", t.litres_emitted},
+                    {"tank_l", t.tank_l},
+                    {"plate_c", t.plate_c},
+                    {"final_base", json(t.X_map_base)},
+                    {"final_q_rad", json(t.q)},
+                    {"start", json(t.starts.back())},
+                    {"starts", starts},
+                    {"fire_places", firePlaces(t)},
+                    {"perturbations", perturbations(t)}};
+  return out.dump(2) + "\n";
+}
+
+std::string truthTraceLine(const Truth& t) {
+  const Json out = {{"t", toSeconds(t.now)},
+                    {"base", json(t.X_map_base)},
+                    {"thermal", json(t.X_map_thermal)},
+                    {"nozzle", json(t.X_map_nozzle)},
+                    {"q_rad", json(t.q)},
+                    {"plate_c", t.plate_c},
+                    {"jet", t.jet_on},
+                    {"litres", t.litres_delivered}};
+  return out.dump() + "\n";
+}
+
+Result<void> writeAtomically(const std::string& path, const std::string& text) {
+  const std::string part = path + ".tmp";
+  const auto failed = [&](const char* what) {
+    const int code = errno;
+    ::unlink(part.c_str());
+    return makeError(ErrorCode::Storage,
+                     "{}: cannot {}: {}; check the folder, its rights and the free space", path,
+                     what, std::strerror(code));
+  };
+  const int file = ::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  if (file < 0) return failed("create");
+  for (std::size_t done = 0; done < text.size();) {
+    const ssize_t n = ::write(file, text.data() + done, text.size() - done);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) {
+      const auto error = failed("write");
+      ::close(file);
+      return error;
+    }
+    done += static_cast<std::size_t>(n);
+  }
+  if (::fsync(file) != 0 || ::close(file) != 0) return failed("write to disk");
+  if (std::rename(part.c_str(), path.c_str()) != 0) return failed("rename");
+  return {};
+}
+
+}  // namespace kiln::sim

@@ -1,0 +1,237 @@
+#include "robot/sim/world.h"
+
+#include <cmath>
+
+#include "common/config/resources.h"
+#include "common/core/check.h"
+#include "robot/scene/arena_map.h"
+#include "robot/sim/arm_device.h"
+#include "robot/sim/base_device.h"
+#include "robot/sim/collision_monitor.h"
+#include "robot/sim/fault_script.h"
+#include "robot/sim/physics.h"
+#include "robot/sim/pump_device.h"
+#include "robot/sim/sensor_suite.h"
+#include "robot/sim/water_jet.h"
+
+namespace kiln::sim {
+namespace {
+
+constexpr double kObstacleAhead_m = 0.30;  // of the flange, along its axis
+
+template <class T>
+Result<T> loadResource(const std::string& relative) {
+  const auto path = resourcePath(relative);
+  if (!path) return tl::make_unexpected(path.error());
+  T value;
+  if (auto ok = loadConfig(*path, value); !ok) return tl::make_unexpected(ok.error());
+  return value;
+}
+
+}  // namespace
+
+struct World::Impl {
+  Impl(const WorldConfig& c, const ArenaMap& map, const RobotGeometry& r, std::uint64_t s,
+       Options options)
+      : config(c),
+        robot(r),
+        seed(s),
+        arena(TrueArena::draw(c, map, r, s)),
+        step(fromSeconds(c.physics.step_s)),
+        faults(c.faults),
+        arm(c.arm, r, s),
+        base(c.base, r, arena.robot),
+        pumps(c.water, s),
+        jet(c.water, arena.fire_places, s),
+        collisions(c.collision_force_n),
+        sensors(c, arena, r, s, options.render_colour) {}
+
+  void carryToStart();
+  void stepOnce();
+  void applyFaults();
+  void stepWater();
+  [[nodiscard]] SceneState scene() const;
+  [[nodiscard]] double plate() const {
+    return config.fire.ambient_c +
+           config.fire.rise_k * (1.0 - std::exp(-toSeconds(now) / config.fire.time_constant_s));
+  }
+  [[nodiscard]] Eigen::Isometry3d X_map_flange() const {
+    return physics->X_map_base() * robot.X_base_flange(physics->armPosition());
+  }
+
+  WorldConfig config;
+  RobotGeometry robot;
+  std::uint64_t seed;
+  TrueArena arena;
+  Duration step;
+  Stamp now;
+  FaultScript faults;
+  std::unique_ptr<Physics> physics;
+  ArmDevice arm;
+  BaseDevice base;
+  PumpDevice pumps;
+  WaterJet jet;
+  CollisionMonitor collisions;
+  SensorSuite sensors;
+  std::optional<Eigen::Vector3d> obstacle;
+  bool protective_stop_done = false;
+  std::uint32_t resets = 0;
+  std::vector<Pose2> starts;
+  std::uint64_t seq = 0;
+  std::string refused;
+};
+
+void World::Impl::carryToStart() {
+  starts.push_back(drawStart(config.perturbation, arena.nominal_start, seed, resets));
+  const Vector6d q = RobotGeometry::radians(robot.q_park_deg);
+  physics->carryTo(starts.back(), q);
+  arm.reset(q);
+  base.reset();
+}
+
+SceneState World::Impl::scene() const {
+  SceneState state;
+  state.stamp = now;
+  state.X_map_base = physics->X_map_base();
+  state.q = physics->armPosition();
+  for (std::size_t i = 0; i < 4; ++i) {
+    state.steer_rad[i] = physics->steer(i).position;
+    state.drive_rad[i] = physics->drive(i).position;
+  }
+  state.plate_c = plate();
+  state.obstacle = obstacle;
+  return state;
+}
+
+void World::Impl::applyFaults() {
+  const bool all = faults.active("pump_blocked", now);
+  pumps.setBlocked(0, all || faults.active("pump_blocked_left", now));
+  pumps.setBlocked(1, all || faults.active("pump_blocked_right", now));
+  const bool blocked_way = faults.active("arm_obstacle", now);
+  if (blocked_way != obstacle.has_value()) {
+    obstacle.reset();
+    if (blocked_way) obstacle = X_map_flange() * Eigen::Vector3d(0, 0, kObstacleAhead_m);
+    physics->placeObstacle(obstacle.value_or(Eigen::Vector3d(0, 0, -5)));
+  }
+  const bool stop = faults.active("protective_stop", now);
+  if (stop && !protective_stop_done) arm.protectiveStop();
+  protective_stop_done = stop;
+}
+
+void World::Impl::stepWater() {
+  const double dt = toSeconds(step);
+  const double litres = pumps.step(now, dt);
+  if (litres > 0.0) {
+    const Eigen::Isometry3d X_map_nozzle = X_map_flange() * arena.robot.X_flange_nozzle;
+    jet.emit(litres, pumps.flowFraction(), X_map_nozzle,
+             physics->flangePointVelocity(X_map_nozzle.translation()));
+  }
+  jet.step(dt, sensors.rays());
+}
+
+void World::Impl::stepOnce() {
+  const double dt = toSeconds(step);
+  applyFaults();
+  arm.control(now, dt, *physics);
+  base.control(now, dt, *physics);
+  physics->step();
+  now += step;
+  arm.sense(dt, *physics);
+  collisions.observe(now, physics->contacts());
+  stepWater();
+  sensors.afterStep(scene(), faults, [this] { return jet.drops(); });
+}
+
+World::World(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+World::~World() = default;
+
+Result<std::unique_ptr<World>> World::create(const WorldConfig& config, std::uint64_t seed,
+                                             Options options) {
+  if (auto ok = config.validate(); !ok) return tl::make_unexpected(ok.error());
+  const auto map = loadResource<ArenaMap>(config.arena);
+  if (!map) return tl::make_unexpected(map.error());
+  const auto robot = loadResource<RobotGeometry>(config.robot);
+  if (!robot) return tl::make_unexpected(robot.error());
+  auto impl = std::make_unique<Impl>(config, *map, *robot, seed, options);
+  auto physics = Physics::create(config, impl->arena, *robot);
+  if (!physics) return tl::make_unexpected(physics.error());
+  impl->physics = std::move(*physics);
+  impl->carryToStart();
+  return std::unique_ptr<World>(new World(std::move(impl)));
+}
+
+void World::command(const WorldCommands& c) {
+  Impl& w = *impl_;
+  const auto note = [&w](std::string why) {
+    if (!why.empty()) w.refused = std::move(why);
+  };
+  if (c.sensors) w.sensors.request(*c.sensors);
+  if (c.release_protective_stop) {
+    w.arm.releaseProtectiveStop();
+    w.refused.clear();
+  }
+  if (c.request_reset) {
+    ++w.resets;
+    w.carryToStart();
+  }
+  if (c.arm) note(w.arm.servo(w.now, c.arm->q, c.arm->qd));
+  if (c.base) note(w.base.write(w.now, *c.base));
+  if (c.pumps) note(w.pumps.write(w.now, *c.pumps));
+}
+
+WorldReport World::advance(Stamp until) {
+  Impl& w = *impl_;
+  KILN_CHECK(until >= w.now - w.step, toSeconds(until), toSeconds(w.now));
+  while (w.now + w.step <= until) w.stepOnce();
+  WorldReport report;
+  report.now = w.now;
+  report.seq = ++w.seq;
+  report.arm = w.arm.report(w.now, *w.physics);
+  report.base = w.base.report(w.now, *w.physics);
+  report.pumps = w.pumps.report(w.now);
+  report.resets = w.resets;
+  report.refused = w.refused;
+  w.sensors.takeFrames(report);
+  return report;
+}
+
+Stamp World::now() const { return impl_->now; }
+std::optional<SceneState> World::colourDue() { return impl_->sensors.takeColourDue(); }
+const WorldConfig& World::config() const { return impl_->config; }
+const TrueArena& World::arena() const { return impl_->arena; }
+const RobotGeometry& World::robot() const { return impl_->robot; }
+
+Truth World::truth() const {
+  const Impl& w = *impl_;
+  Truth t;
+  t.seed = w.seed;
+  t.world = w.config.name;
+  t.now = w.now;
+  for (const TrueFirePlace& place : w.arena.fire_places) t.place_names.push_back(place.name);
+  t.litres_delivered = w.jet.deliveredLitres();
+  t.burning = w.arena.burning;
+  t.collisions = w.collisions.collisions();
+  t.resets = w.resets;
+  if (!t.litres_delivered.empty()) {
+    t.score = w.config.fire.points *
+              std::min(1.0, t.litres_delivered[t.burning] / w.config.fire.full_score_l);
+  }
+  t.pump_on_s = w.pumps.onTime();
+  t.litres_emitted = w.jet.emittedLitres();
+  for (std::size_t i = 0; i < 2; ++i) {
+    t.tank_l[i] = w.pumps.tank(i);
+    t.full_flow_lpm[i] = w.pumps.fullFlow(i);
+  }
+  const SceneState scene = w.scene();
+  t.X_map_base = scene.X_map_base;
+  t.X_map_thermal = w.sensors.thermal().X_map_thermal(scene);
+  t.X_map_nozzle = w.X_map_flange() * w.arena.robot.X_flange_nozzle;
+  t.q = scene.q;
+  t.jet_on = w.pumps.flowFraction() > 0.0;
+  t.plate_c = scene.plate_c;
+  t.starts = w.starts;
+  t.arena = w.arena;
+  return t;
+}
+
+}  // namespace kiln::sim
