@@ -81,6 +81,7 @@ WorldState worldFrom(const json& j) {
   out.resets = j.at("resets").get<int>();
   for (const json& place : j.at("places")) out.places.push_back(placeFrom(place));
   out.current_place = j.at("current_place").get<int>();
+  out.at_place = j.at("at_place").get<int>();
   out.search_round = j.at("search_round").get<int>();
   out.inside = j.at("inside").get<bool>();
   const Eigen::Vector3d base = vectorFrom(j.at("X_map_base"));
@@ -88,6 +89,9 @@ WorldState worldFrom(const json& j) {
   out.pose_stamp = stampFromNanoseconds(j.at("pose_stamp_ns").get<std::int64_t>());
   out.sprayed_l_est = j.at("sprayed_l_est").get<double>();
   out.tank_l_est = {j.at("tank_l_est").at(0).get<double>(), j.at("tank_l_est").at(1).get<double>()};
+  out.pump_usable = {j.at("pump_usable").at(0).get<bool>(), j.at("pump_usable").at(1).get<bool>()};
+  out.entry_faults = j.at("entry_faults").get<int>();
+  out.blocked_in_row = j.at("blocked_in_row").get<int>();
   return out;
 }
 
@@ -101,12 +105,16 @@ json worldToJson(const WorldState& world) {
           {"resets", world.resets},
           {"places", places},
           {"current_place", world.current_place},
+          {"at_place", world.at_place},
           {"search_round", world.search_round},
           {"inside", world.inside},
           {"X_map_base", {world.X_map_base.x_m, world.X_map_base.y_m, world.X_map_base.yaw_rad}},
           {"pose_stamp_ns", toNanoseconds(world.pose_stamp)},
           {"sprayed_l_est", world.sprayed_l_est},
-          {"tank_l_est", {world.tank_l_est[0], world.tank_l_est[1]}}};
+          {"tank_l_est", {world.tank_l_est[0], world.tank_l_est[1]}},
+          {"pump_usable", {world.pump_usable[0], world.pump_usable[1]}},
+          {"entry_faults", world.entry_faults},
+          {"blocked_in_row", world.blocked_in_row}};
 }
 
 // JSON writes NaN as null, which is then of the wrong type: a non-finite number cannot come back.

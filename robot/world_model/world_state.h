@@ -34,12 +34,17 @@ struct WorldState {
   int resets = 0;
   std::vector<FirePlace> places;
   int current_place = -1;  ///< index into places; -1 = none selected
+  int at_place = -1;       ///< the base last arrived at the work pose of this place; -1 = none
   int search_round = 1;
   bool inside = false;  ///< the entry path was driven to its end
   Pose2 X_map_base;     ///< newest known pose
   Stamp pose_stamp;
   double sprayed_l_est = 0.0;
   std::array<double, 2> tank_l_est{5.0, 5.0};
+  std::array<bool, 2> pump_usable{true,
+                                  true};  ///< a pump that repeatedly drew no current is left out
+  int entry_faults = 0;                   ///< failed drives into the building since the last reset
+  int blocked_in_row = 0;                 ///< arm faults since a drive last succeeded
 
   /// Seconds on the mission clock; 0 before its start. It runs on through pauses and resets.
   [[nodiscard]] double elapsedS(Stamp now) const {

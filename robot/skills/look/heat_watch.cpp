@@ -20,6 +20,7 @@ double age(const std::optional<Stamp>& stamp, Stamp now) {
 
 void HeatWatch::begin(const Eigen::Vector3d& normal_map) {
   sweep_.begin();
+  estimate_is_current_ = false;
   sightings_ = looks_ = 0;
   last_seen_.reset();
   last_usable_.reset();
@@ -47,7 +48,14 @@ void HeatWatch::onDetections(const HeatDetections& detections,
     unseen_for_s_ += std::min(kLongestFrameGap_s, toSeconds(detections.stamp - *last_usable_));
   }
   last_usable_ = detections.stamp;
+  estimate_is_current_ = false;
   sweep_.add(detections, X_map_thermal, normal_map_);
+}
+
+const std::optional<FireEstimate>& HeatWatch::estimate() {
+  if (!estimate_is_current_) estimate_ = sweep_.estimate();
+  estimate_is_current_ = true;
+  return estimate_;
 }
 
 double HeatWatch::imageAgeS(Stamp now) const { return age(last_image_, now); }

@@ -22,7 +22,8 @@ class HeatWatch {
   [[nodiscard]] bool listening() const { return listening_; }
   void onDetections(const HeatDetections& detections, const Eigen::Isometry3d& X_map_thermal);
 
-  [[nodiscard]] std::optional<FireEstimate> estimate() const { return sweep_.estimate(); }
+  /// Computed once for each new image.
+  [[nodiscard]] const std::optional<FireEstimate>& estimate();
   /// Images in which an accepted blob was seen since begin().
   [[nodiscard]] int sightings() const { return sightings_; }
   /// Usable images since begin().
@@ -39,6 +40,8 @@ class HeatWatch {
 
  private:
   HeatSweep& sweep_;
+  std::optional<FireEstimate> estimate_;
+  bool estimate_is_current_ = false;
   bool listening_ = false;
   Eigen::Vector3d normal_map_ = Eigen::Vector3d::UnitX();
   int sightings_ = 0;

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+
+#include "common/core/error.h"
+#include "robot/fsm/machine.h"
+#include "robot/world_model/atomic_file.h"
+#include "robot/world_model/world_state.h"
+
+namespace kiln {
+
+/// Everything that a mission needs to go on after its program was killed: where the state machine
+/// stood and what the robot believed.
+struct MissionCheckpoint {
+  static constexpr int kVersion = 1;
+  Stamp stamp;
+  FsmCheckpoint fsm;
+  WorldState world;
+};
+
+[[nodiscard]] std::string encodeCheckpoint(const MissionCheckpoint& checkpoint);
+/// @param name  of the file, for messages.
+/// Error: Truncated (not whole), VersionMismatch (another format or version), InvalidInput (a key
+/// is missing or wrong).
+[[nodiscard]] Result<MissionCheckpoint> decodeCheckpoint(const std::string& text,
+                                                         const std::string& name);
+
+[[nodiscard]] Result<void> saveCheckpoint(const std::string& path,
+                                          const MissionCheckpoint& checkpoint,
+                                          Durability durability);
+[[nodiscard]] Result<MissionCheckpoint> loadCheckpoint(const std::string& path);
+
+}  // namespace kiln

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include "common/geom/pose.h"
+#include "robot/scene/arena_map.h"
+
+namespace kiln {
+
+/// True when a disc of `radius_m` can move straight from a to b without touching walls, furniture
+/// or fire tables of the nominal map.
+[[nodiscard]] bool straightIsClear(const ArenaMap& arena, const Pose2& a, const Pose2& b,
+                                   double radius_m);
+
+/// Leaves out way-points between which the straight line is clear; the last one always stays.
+[[nodiscard]] std::vector<Pose2> shortened(const ArenaMap& arena, const Pose2& from,
+                                           const std::vector<Pose2>& route, double radius_m);
+
+/// The way-points of a polyline that still lie ahead of `here`: a resume in the middle of a drive
+/// does not turn back.
+/// @param start  where the polyline begins.
+[[nodiscard]] std::vector<Pose2> remaining(const Pose2& start, const std::vector<Pose2>& route,
+                                           const Pose2& here);
+
+/// From inside the building to the work pose of a place. When `from_place` >= 0 its way-points lead
+/// back to the hub.
+[[nodiscard]] std::vector<Pose2> routeToPlace(const ArenaMap& arena, const Pose2& here,
+                                              int from_place, int to_place, double radius_m);
+
+}  // namespace kiln

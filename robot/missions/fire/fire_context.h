@@ -1,0 +1,84 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "common/core/clock.h"
+#include "common/robot_model/robot_geometry.h"
+#include "robot/control/pump_controller.h"
+#include "robot/hal/arm.h"
+#include "robot/missions/common/stowed_drive.h"
+#include "robot/missions/fire/fire_config.h"
+#include "robot/scene/arena_map.h"
+#include "robot/skills/look/heat_watch.h"
+#include "robot/skills/look/look_around.h"
+#include "robot/skills/motion.h"
+#include "robot/world_model/world_model.h"
+
+namespace kiln {
+
+/// What the fire mission works with; all outlive it.
+struct FireDevices {
+  const Clock& clock;
+  const ArenaMap& arena;
+  const RobotGeometry& robot;
+  WorldModel& world;
+  BaseMotion& base;       ///< DriveTo
+  ArmMotion& arm;         ///< MoveArm
+  const Arm& arm_device;  ///< joints and safety mode
+  PumpController& pumps;
+  HeatSweep& heat;              ///< HeatLocalizer behind an adapter
+  std::function<Pose2()> pose;  ///< newest X_map_base
+};
+
+/// What the states of the fire mission share. Confined to the mission thread.
+class FireContext {
+ public:
+  FireContext(const FireDevices& devices, const FireConfig& fire_config,
+              const SprayCalibration& spray_calibration);
+
+  const FireDevices devices;
+  const FireConfig config;
+  const SprayCalibration calibration;
+  HeatWatch heat;
+  LookAround look;
+  StowedDrive drive;
+  std::optional<AimSolution>
+      aim;                       ///< chosen spray pose; not kept over a restart: aiming starts anew
+  double sweep_started_s = 0.0;  ///< mission time at which the present sweep began
+
+  [[nodiscard]] WorldState& world() const { return devices.world.edit(); }
+  /// @pre a place is selected.
+  [[nodiscard]] FirePlace& place() const;
+  [[nodiscard]] bool hasPlace() const { return devices.world.currentPlace() != nullptr; }
+  /// For State::denyEntry.
+  [[nodiscard]] std::string whyNoPlace() const;
+  /// Done with the current place in this round.
+  void closePlace(const std::string& outcome) const;
+
+  [[nodiscard]] Eigen::Isometry3d X_map_base() const;
+  [[nodiscard]] std::optional<Eigen::Isometry3d> X_base_flange()
+      const;  ///< nullopt without an arm state
+  [[nodiscard]] std::optional<Eigen::Isometry3d> X_map_nozzle() const;
+  [[nodiscard]] Eigen::Isometry3d flangeForNozzle(
+      const Eigen::Isometry3d& X_map_nozzle) const;   ///< X_base_flange
+  [[nodiscard]] Eigen::Vector3d placeNormal() const;  ///< of the current place, in map
+  /// Newest estimate of the present sweep, else the one that is remembered for the place; gated to
+  /// the place.
+  [[nodiscard]] std::optional<FireEstimate> estimate();
+  [[nodiscard]] AimTarget aimTarget(const FireEstimate& estimate) const;
+  /// Expected flow by full flow, in the middle of the water that is still to be sprayed here.
+  [[nodiscard]] double flowScale() const;
+  [[nodiscard]] bool atSprayPose() const;
+  [[nodiscard]] bool atWorkPose() const;
+
+  /// Feeds the pumps for 200 ms; to be called at each step of a spraying state.
+  void pumpsOn(Stamp now) const;
+  void pumpsOff(Stamp now) const;
+  /// Arm and base come to rest.
+  void haltMotion();
+  void haltAll(Stamp now);
+};
+
+}  // namespace kiln

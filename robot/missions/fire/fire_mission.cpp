@@ -1,0 +1,171 @@
+#include "robot/missions/fire/fire_mission.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "common/core/log.h"
+#include "robot/missions/common/mission_checkpoint.h"
+#include "robot/missions/fire/fire_machine.h"
+#include "robot/skills/aim/jet.h"
+
+namespace kiln {
+
+WorldState initialWorld(const ArenaMap& arena) {
+  WorldState world;
+  world.X_map_base = arena.start.pose();
+  for (const FirePlaceConfig& config : arena.fire_places) {
+    FirePlace place;
+    place.name = config.name;
+    place.p_plate_map = {config.plate_xyz_m[0], config.plate_xyz_m[1], config.plate_xyz_m[2]};
+    place.facing_rad = config.facing_deg * M_PI / 180.0;
+    world.places.push_back(place);
+  }
+  return world;
+}
+
+struct FireMission::Impl {
+  Impl(const FireDevices& devices, const FireConfig& config, const SprayCalibration& calibration,
+       const Options& mission_options)
+      : options(mission_options),
+        context(devices, config, calibration),
+        machine(makeFireMachine(context, options.mission_uuid)) {
+    machine->onTransition([this](const FsmCheckpoint& fsm) { save(fsm, Durability::PowerLoss); });
+  }
+
+  /// Litres go to the place that is being worked on, whoever runs the pumps.
+  void countWater() {
+    WorldState& world = context.world();
+    const PumpTracking pumps = context.devices.pumps.tracking();
+    const double sprayed = std::max(0.0, pumps.sprayed_l_est - world.sprayed_l_est);
+    if (FirePlace* place = context.devices.world.currentPlace()) place->litres_est += sprayed;
+    world.sprayed_l_est = pumps.sprayed_l_est;
+    world.tank_l_est = pumps.tank_l_est;
+  }
+
+  void observe(Stamp now) {
+    WorldState& world = context.world();
+    world.X_map_base = context.devices.pose();
+    world.pose_stamp = now;
+    countWater();
+  }
+
+  /// A full disk costs the resume, not the mission.
+  void save(const FsmCheckpoint& fsm, Durability durability) {
+    if (options.checkpoint_path.empty()) return;
+    last_save = context.devices.clock.now();
+    const Result<void> saved = saveCheckpoint(
+        options.checkpoint_path, {last_save, fsm, context.devices.world.state()}, durability);
+    if (!saved && !storage_alarm) {
+      logger("mission.fire")->error("checkpoint not kept: {}", saved.error().message);
+      storage_alarm =
+          Alarm{"storage.checkpoint", AlarmLevel::Caution, saved.error().message,
+                "The mission goes on but could not be resumed; free the disk", last_save};
+    }
+    if (saved) storage_alarm.reset();
+  }
+
+  const Options options;
+  FireContext context;
+  std::unique_ptr<Machine> machine;
+  std::optional<Alarm> storage_alarm;
+  Stamp last_save;
+};
+
+FireMission::FireMission(const FireDevices& devices, const FireConfig& config,
+                         const SprayCalibration& calibration, const Options& options)
+    : impl_(std::make_unique<Impl>(devices, config, calibration, options)) {}
+FireMission::~FireMission() = default;
+
+Machine& FireMission::machine() { return *impl_->machine; }
+const Machine& FireMission::machine() const { return *impl_->machine; }
+
+void FireMission::start(Stamp now) {
+  impl_->context.devices.world.startClock(now);
+  impl_->machine->start(now);
+}
+
+void FireMission::tick(Stamp now) {
+  Impl& m = *impl_;
+  m.observe(now);
+  m.machine->step(now);
+  const bool running = m.machine->status(now).running;
+  if (running && now - m.last_save >= fromSeconds(m.context.config.checkpoint_period_s))
+    m.save(m.machine->checkpoint(), Durability::ProcessDeath);
+  m.context.devices.world.publish();
+}
+
+void FireMission::onDetections(const HeatDetections& detections,
+                               const Eigen::Isometry3d& X_map_thermal) {
+  impl_->context.heat.onDetections(detections, X_map_thermal);
+}
+
+void FireMission::onReset(Stamp now) {
+  Impl& m = *impl_;
+  WorldState& world = m.context.world();
+  ++world.resets;
+  world.inside = false;
+  world.at_place = world.current_place = -1;
+  world.entry_faults = world.blocked_in_row = 0;
+  m.context.aim.reset();
+  m.context.haltAll(now);
+  if (m.machine->status(now).running)
+    m.machine->restart(fmt::format("reset {}", world.resets), now);
+}
+
+Result<void> FireMission::resumeFrom(const std::string& path, Stamp now) {
+  Impl& m = *impl_;
+  auto loaded = loadCheckpoint(path);
+  if (!loaded) return tl::make_unexpected(loaded.error());
+  const std::size_t places = m.context.devices.arena.fire_places.size();
+  if (loaded->world.places.size() != places ||
+      loaded->world.current_place >= static_cast<int>(places) ||
+      loaded->world.at_place >= static_cast<int>(places))
+    return makeError(
+        ErrorCode::InvalidInput,
+        "{}: the checkpoint knows {} fire places, the arena has {}; start without --resume", path,
+        loaded->world.places.size(), places);
+  WorldState before = m.context.world();
+  m.context.devices.world.restore(std::move(loaded->world), loaded->stamp, now);
+  m.context.devices.pumps.restoreEstimate(m.context.world().sprayed_l_est,
+                                          m.context.world().tank_l_est);
+  auto restored = m.machine->restore(loaded->fsm, now);
+  if (!restored) m.context.world() = std::move(before);
+  return restored;
+}
+
+std::vector<FirePlaceInfo> FireMission::places() const {
+  std::vector<FirePlaceInfo> out;
+  for (const FirePlace& place : impl_->context.world().places)
+    out.push_back({place.name, place.p_plate_map, place.facing_rad, place.visited});
+  return out;
+}
+
+std::vector<FireEstimate> FireMission::fires() const {
+  std::vector<FireEstimate> out;
+  const FirePlace* current = impl_->context.devices.world.currentPlace();
+  for (const FirePlace& place : impl_->context.world().places) {
+    std::optional<FireEstimate> estimate = place.estimate;
+    if (&place == current && impl_->context.heat.listening()) estimate = impl_->context.estimate();
+    if (estimate) out.push_back(*estimate);
+  }
+  return out;
+}
+
+JetPreview FireMission::jetPreview(Stamp now) const {
+  const FireContext& c = impl_->context;
+  JetPreview out;
+  out.stamp = now;
+  out.spraying = c.devices.pumps.tracking().spraying;
+  const auto X_map_nozzle = c.X_map_nozzle();
+  if (X_map_nozzle)
+    out.points_map = jetPoints(c.calibration, *X_map_nozzle, c.hasPlace() ? c.flowScale() : 1.0);
+  return out;
+}
+
+std::vector<Alarm> FireMission::alarms() const {
+  if (!impl_->storage_alarm) return {};
+  return {*impl_->storage_alarm};
+}
+
+}  // namespace kiln

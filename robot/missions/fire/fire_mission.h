@@ -1,0 +1,59 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/model/status.h"
+#include "robot/fsm/machine.h"
+#include "robot/missions/fire/fire_context.h"
+
+namespace kiln {
+
+/// The nominal belief before a mission: the arena's places, nothing known of them.
+[[nodiscard]] WorldState initialWorld(const ArenaMap& arena);
+
+/// Challenge 3 (NimbRo UGV paper, section "Challenge 3"): finds the fire and sprays it, both places
+/// one after the other. Confined to the mission thread, except machine().blocked() and
+/// machine().info().
+///
+/// Wiring (robot/app), each 20 ms: onDetections() for each thermal result that has arrived, then
+/// tick(now). Operator commands go to machine(): start, pause, resume, changeState. In teleop and
+/// after STOP pause the machine before tick(): a paused mission writes no setpoints.
+class FireMission {
+ public:
+  struct Options {
+    std::string mission_uuid{};     ///< empty: random; give one in lockstep
+    std::string checkpoint_path{};  ///< empty: nothing is kept
+  };
+  FireMission(const FireDevices& devices, const FireConfig& config,
+              const SprayCalibration& calibration, const Options& options);
+  ~FireMission();
+
+  [[nodiscard]] Machine& machine();
+  [[nodiscard]] const Machine& machine() const;
+
+  /// Starts mission and mission clock.
+  void start(Stamp now);
+  /// World model from the devices, one step of the machine, checkpoint, snapshot.
+  void tick(Stamp now);
+  /// @param X_map_thermal  camera pose at the image's stamp.
+  void onDetections(const HeatDetections& detections, const Eigen::Isometry3d& X_map_thermal);
+  /// Competition reset: the robot stands at its start again, clock and knowledge go on.
+  void onReset(Stamp now);
+  /// Goes on from a checkpoint file. Error: says what is wrong with it; nothing is started then.
+  [[nodiscard]] Result<void> resumeFrom(const std::string& path, Stamp now);
+
+  [[nodiscard]] std::vector<FirePlaceInfo> places() const;
+  [[nodiscard]] std::vector<FireEstimate> fires()
+      const;  ///< of each place, and the present sweep's
+  [[nodiscard]] JetPreview jetPreview(Stamp now) const;
+  /// Conditions of the mission that an operator must act on, e.g. a full disk; present ones only.
+  [[nodiscard]] std::vector<Alarm> alarms() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace kiln

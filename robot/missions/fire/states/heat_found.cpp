@@ -1,0 +1,44 @@
+#include "robot/missions/fire/states/heat_found.h"
+
+#include <fmt/format.h>
+
+#include "robot/missions/fire/states/aim_hose.h"
+#include "robot/missions/fire/states/arm_search.h"
+#include "robot/missions/fire/states/next_location.h"
+
+namespace kiln {
+
+Transition HeatFound::execute() {
+  FireContext& c = context();
+  FirePlace& place = c.place();
+  const std::optional<FireEstimate> estimate = c.heat.estimate();
+  const double off_m = estimate ? (estimate->p_map - place.p_plate_map).norm() : 0.0;
+  const bool found = guard("Has thermal detection", estimate.has_value(),
+                           fmt::format("{} views", estimate ? estimate->views : c.heat.sightings()),
+                           c.heat.seenAgeS(now()));
+  const bool near =
+      found && guard("Near the configured place", off_m <= c.config.search.place_gate_m,
+                     fmt::format("{:.2f} m off", off_m));
+  if (near) {
+    place.estimate = estimate;
+    place.estimate->place = place.name;
+    return transit<AimHose>().because(
+        fmt::format("{:.0f} K at {:.2f} m", estimate->peak_k, estimate->range_m));
+  }
+  const double hot_after_s = c.config.heating.hotAfterS(c.heat.thresholdK());
+  const bool was_hot = guard(
+      "Plate has had time to heat", c.sweep_started_s >= hot_after_s,
+      fmt::format("hot after {:.0f} s, sweep began at {:.0f} s", hot_after_s, c.sweep_started_s));
+  if (!was_hot) {
+    --place.searches;  // it could not have been found yet
+    return transit<ArmSearch>().because("the plate may still be warming");
+  }
+  const bool glimpsed = c.heat.sightings() > 0 || c.heat.looks() == 0;
+  if (glimpsed && place.searches < c.config.search.max_searches)
+    return transit<ArmSearch>().because(c.heat.looks() == 0 ? "no usable thermal image"
+                                                            : "glimpsed, not located");
+  c.closePlace(found ? fmt::format("heat source {:.2f} m off its place", off_m) : "no heat source");
+  return transit<NextLocation>().because(place.outcome);
+}
+
+}  // namespace kiln
