@@ -1,0 +1,90 @@
+#include "gui/views/macros/macro_row.h"
+
+#include <QPainter>
+#include <QPainterPath>
+#include <QStringList>
+#include <algorithm>
+
+namespace kiln::gui {
+namespace {
+constexpr int kHeight_px = 42, kPad_px = 9;
+}
+
+MacroRow::MacroRow(const Ui& ui, MacroInfo macro, QWidget* parent)
+    : HoldButton(ui, QString::fromStdString(macro.name), 0.0, parent),
+      macro_(std::move(macro)),
+      hint_(tr("hold to run")) {
+  setFocusPolicy(Qt::TabFocus);
+  setToolTip(QString::fromStdString(macro_.doc));
+}
+
+QString MacroRow::summary(const MacroInfo& macro) {
+  QStringList parts{tr("%1 s").arg(macro.duration_s, 0, 'f', 0)};
+  if (macro.water_l > 0.0) parts << tr("est. %1 l").arg(macro.water_l, 0, 'f', 1);
+  if (!macro.start_condition.empty()) parts << QString::fromStdString(macro.start_condition);
+  return parts.join(QStringLiteral(" · "));
+}
+
+void MacroRow::setStatus(const MacroStatus& status) {
+  const bool mine = status.running == macro_.name;
+  progress_ = mine ? std::clamp(status.progress, 0.0, 1.0) : 0.0;
+  step_ = mine ? tr("step %1 of %2 · %3")
+                     .arg(status.step + 1)
+                     .arg(status.steps)
+                     .arg(QString::fromStdString(status.step_text))
+               : QString();
+  update();
+}
+
+void MacroRow::setHint(const QString& hint) {
+  if (hint == hint_) return;
+  hint_ = hint;
+  update();
+}
+
+QSize MacroRow::sizeHint() const { return {200, kHeight_px}; }
+
+void MacroRow::paintEvent(QPaintEvent*) {
+  const Palette& p = ui().theme.colors();
+  QPainter painter(this);
+  painter.setRenderHint(QPainter::Antialiasing);
+  const bool running = !step_.isEmpty();
+  QPainterPath outline;
+  const QRectF frame = QRectF(rect()).adjusted(1, 1, -1, -1);
+  outline.addRoundedRect(frame, 4, 4);
+  painter.fillPath(outline, !isEnabled()   ? p.panel
+                            : isEngaged()  ? p.manual_fill
+                            : underMouse() ? mixed(p.raised, p.text, 0.07)
+                                           : p.raised);
+  if (running) {
+    painter.save();
+    painter.setClipPath(outline);
+    painter.fillRect(QRectF(frame.left(), frame.bottom() - 5, frame.width() * progress_, 5),
+                     p.manual);
+    painter.restore();
+  }
+  painter.setPen(QPen(isEngaged() || running ? p.manual
+                      : isEnabled()          ? p.border
+                                             : p.grid,
+                      isEngaged() ? 2.0 : 1.2));
+  painter.drawPath(outline);
+  const QRectF text = frame.adjusted(kPad_px, 4, -kPad_px, -5);
+  const QFont strong = ui().theme.font(TextRole::Body), small = ui().theme.font(TextRole::Small);
+  painter.setFont(small);
+  const QString hint = isEngaged() ? tr("release to cancel") : hint_;
+  const double hint_width = QFontMetricsF(small).horizontalAdvance(hint);
+  painter.setPen(isEngaged() ? p.manual : isEnabled() ? p.dim : p.faint);
+  painter.drawText(text, Qt::AlignRight | Qt::AlignVCenter, hint);
+  const QRectF left = text.adjusted(0, 0, -hint_width - 8, 0);
+  painter.setPen(isEnabled() ? p.dim : p.faint);
+  painter.drawText(left, Qt::AlignLeft | Qt::AlignBottom,
+                   QFontMetricsF(small).elidedText(running ? step_ : summary(macro_),
+                                                   Qt::ElideRight, left.width()));
+  painter.setFont(strong);
+  painter.setPen(isEnabled() ? p.text : p.faint);
+  painter.drawText(left, Qt::AlignLeft | Qt::AlignTop,
+                   QFontMetricsF(strong).elidedText(QString::fromStdString(macro_.name),
+                                                    Qt::ElideRight, left.width()));
+}
+
+}  // namespace kiln::gui

@@ -1,0 +1,123 @@
+#include "gui/views/teleop/hold_to_run.h"
+
+#include <optional>
+
+namespace kiln::gui {
+namespace {
+
+QString ageOrNone(double age_s) {
+  return age_s < 0 ? HoldToRun::tr("none") : HoldToRun::tr("%1 s").arg(age_s, 0, 'f', 1);
+}
+
+/// The setpoint that means "at rest" and leaves other streams alone; a macro has none.
+std::optional<CommandBody> restOf(HoldKind kind) {
+  switch (kind) {
+    case HoldKind::Base:
+      return JogBase{};
+    case HoldKind::Arm:
+      return JogArm{};
+    case HoldKind::Pump:
+      return HoldPump{};
+    case HoldKind::Macro:
+      return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+HoldToRun::HoldToRun(StationModels& models, Config config, QObject* parent)
+    : QObject(parent), models_(models), config_(config) {
+  connect(&renew_, &QTimer::timeout, this, &HoldToRun::renew);
+}
+
+HoldToRun::~HoldToRun() {
+  if (holding()) models_.link.releaseSetpoints();
+}
+
+QString HoldToRun::viewLock() const {
+  const double cloud_s = models_.cloud.ageS(), video_s = models_.camera.ageS();
+  const bool cloud_fresh = cloud_s >= 0 && cloud_s <= config_.fresh_view_s;
+  const bool video_fresh = video_s >= 0 && video_s <= config_.fresh_view_s;
+  if (cloud_fresh || video_fresh) return {};
+  return tr("no fresh view: cloud %1, video %2 old; needs one within %3 s")
+      .arg(ageOrNone(cloud_s), ageOrNone(video_s))
+      .arg(config_.fresh_view_s, 0, 'f', 1);
+}
+
+QString HoldToRun::lock(HoldKind kind) const {
+  QString why;
+  if (kind == HoldKind::Macro) {
+    if (!models_.mayCommand(&why)) return why;
+    const Mode mode = models_.status.status()->mode;
+    return mode == Mode::Teleop || mode == Mode::Supervised ? QString()
+                                                            : tr("needs Supervised or Teleop mode");
+  }
+  if (!models_.mayJog(&why)) return why;
+  if (kind == HoldKind::Pump) return {};
+  const double rtt_s = models_.link_state.health().rtt_s;
+  if (rtt_s > config_.rtt_refused_s)
+    return tr("link too slow to jog: round trip %1 ms, limit %2 ms")
+        .arg(1e3 * rtt_s, 0, 'f', 0)
+        .arg(1e3 * config_.rtt_refused_s, 0, 'f', 0);
+  return viewLock();
+}
+
+QString HoldToRun::slowdown() const {
+  const double rtt_s = models_.link_state.health().rtt_s;
+  if (rtt_s > config_.rtt_creep_s)
+    return tr("round trip %1 ms: creeps").arg(1e3 * rtt_s, 0, 'f', 0);
+  if (rtt_s > config_.rtt_slow_s)
+    return tr("round trip %1 ms: half speed").arg(1e3 * rtt_s, 0, 'f', 0);
+  return {};
+}
+
+bool HoldToRun::hold(HoldKind kind, const CommandBody& body) {
+  const QString why = lock(kind);
+  if (!why.isEmpty()) {
+    if (holding(kind)) releaseAll(why);
+    return false;
+  }
+  const bool first = !holding(kind);
+  held_.insert_or_assign(kind, body);
+  models_.link.startSetpoint(body);
+  if (!renew_.isActive()) renew_.start(config_.renew_ms);
+  // A macro starts from its first step once; the renewals only keep it running.
+  if (auto* macro = std::get_if<HoldMacro>(&held_.at(kind))) macro->restart = false;
+  if (first) emit changed();
+  return true;
+}
+
+void HoldToRun::release(HoldKind kind) {
+  if (held_.erase(kind) == 0) return;
+  const auto rest = restOf(kind);
+  if (held_.empty()) {
+    renew_.stop();
+    models_.link.releaseSetpoints();
+  } else if (rest) {
+    models_.link.startSetpoint(*rest);
+  } else {
+    models_.link.releaseSetpoints();
+    for (const auto& [other, body] : held_) models_.link.startSetpoint(body);
+  }
+  emit changed();
+}
+
+void HoldToRun::releaseAll(const QString& why) {
+  const bool any = holding();
+  held_.clear();
+  renew_.stop();
+  models_.link.releaseSetpoints();
+  emit tripped(any ? why : QString());
+  if (any) emit changed();
+}
+
+void HoldToRun::renew() {
+  for (const auto& [kind, body] : held_) {
+    const QString why = lock(kind);
+    if (!why.isEmpty()) return releaseAll(why);
+  }
+  for (const auto& [kind, body] : held_) models_.link.startSetpoint(body);
+}
+
+}  // namespace kiln::gui

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <QWidget>
+
+#include "gui/views/teleop/hold_to_run.h"
+#include "gui/views/teleop/jog_keys.h"
+#include "gui/views/teleop/jog_mixer.h"
+#include "gui/views/teleop/jog_pad.h"
+
+class QButtonGroup;
+class QLabel;
+
+namespace kiln::gui {
+
+/// The sticks for base and arm, by mouse and keyboard. Only sends while HoldToRun allows it;
+/// everything at rest ends the streams. The keyboard jogs while the keyboard focus is in this
+/// panel.
+class JogPanel : public QWidget {
+  Q_OBJECT
+ public:
+  JogPanel(const Ui& ui, HoldToRun& hold, QWidget* parent = nullptr);
+  /// Enables or greys out the sticks.
+  void setLocked(bool locked);
+  /// All sticks and keys to rest, without sending: after the streams were ended elsewhere.
+  void rest();
+  [[nodiscard]] JogPad& drivePad() { return *drive_; }
+  [[nodiscard]] JogPad& armPad() { return *arm_; }
+
+ protected:
+  void keyPressEvent(QKeyEvent* event) override;
+  void keyReleaseEvent(QKeyEvent* event) override;
+  void focusInEvent(QFocusEvent* event) override;
+  void focusOutEvent(QFocusEvent* event) override;
+  void paintEvent(QPaintEvent* event) override;
+
+ private:
+  void build();
+  QWidget* buildArmModes();
+  void push();
+  void showKeys();
+  void setArmMode(ArmJogMode mode, int joint);
+  void restyle();
+
+  Ui ui_;
+  HoldToRun& hold_;
+  JogKeys keys_;
+  JogMixer mixer_;
+  JogPad *drive_, *turn_, *arm_, *up_;
+  QLabel *drive_caption_, *arm_caption_;
+  QButtonGroup* modes_;
+};
+
+}  // namespace kiln::gui

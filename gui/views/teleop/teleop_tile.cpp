@@ -1,0 +1,169 @@
+#include "gui/views/teleop/teleop_tile.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QSlider>
+#include <cmath>
+
+#include "gui/views/teleop/dead_man.h"
+
+namespace kiln::gui {
+namespace {
+constexpr int kSpeedDelay_ms =
+    250;  // one command after the slider has come to rest, not one a pixel
+constexpr double kTripShown_s = 4.0;
+constexpr int kSlowest_pct = 5, kDefault_pct = 35;
+}  // namespace
+
+TeleopTile::TeleopTile(const Ui& ui, HoldToRun& hold, QWidget* parent)
+    : Tile(ui, tr("Take over"), parent),
+      ui_(ui),
+      hold_(hold),
+      models_(hold.models()),
+      panel_(new JogPanel(ui, hold)) {
+  auto* content = new QWidget;
+  auto* column = new QVBoxLayout(content);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(5);
+  column->addWidget(makeTop());
+  column->addWidget(panel_, 1);
+  column->addWidget(makeSpeed());
+  setContent(content);
+  new DeadMan(hold_, *panel_);
+  connect(enter_, &QAbstractButton::clicked, this, &TeleopTile::enterTeleop);
+  connect(leave_, &HoldButton::completed, this, &TeleopTile::returnToAutonomy);
+  connect(&hold_, &HoldToRun::tripped, this, [this](const QString& why) {
+    trip_ = why;
+    tripped_at_ = ui_.clock.now();
+    refresh();
+  });
+  connect(&models_.status, &Model::changed, this, &TeleopTile::refresh);
+  connect(&models_, &StationModels::aged, this, &TeleopTile::refresh);
+  connect(&hold_, &HoldToRun::changed, this, &TeleopTile::refresh);
+  connect(&ui_.theme, &Theme::changed, this, &TeleopTile::restyle);
+  connect(speed_, &QSlider::valueChanged, this, [this](int percent) {
+    speed_text_->setText(tr("%1 %").arg(percent));
+    speed_timer_.start(kSpeedDelay_ms);
+  });
+  speed_timer_.setSingleShot(true);
+  connect(&speed_timer_, &QTimer::timeout, this, &TeleopTile::sendSpeed);
+  restyle();
+  refresh();
+}
+
+QWidget* TeleopTile::makeTop() {
+  auto* top = new QWidget;
+  auto* row = new QHBoxLayout(top);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->setSpacing(9);
+  enter_ = new ActButton(ui_, tr("Enter Teleop"));
+  enter_->setKind(ActKind::Manual);
+  enter_->setSubtext(tr("mission pauses, robot holds"));
+  leave_ = new HoldButton(ui_, tr("Return to autonomy"), 1.0);
+  leave_->setSubtext(tr("hold 1 s · mission stays paused"));
+  state_ = new QLabel;
+  state_->setWordWrap(true);
+  row->addWidget(enter_);
+  row->addWidget(leave_);
+  row->addWidget(state_, 1);
+  return top;
+}
+
+QWidget* TeleopTile::makeSpeed() {
+  auto* bar = new QWidget;
+  auto* row = new QHBoxLayout(bar);
+  row->setContentsMargins(0, 0, 0, 0);
+  auto* caption = new QLabel(tr("Speed"));
+  caption->setObjectName(QStringLiteral("caption"));
+  speed_ = new QSlider(Qt::Horizontal);
+  speed_->setRange(kSlowest_pct, 100);
+  speed_->setValue(kDefault_pct);
+  speed_->setPageStep(5);
+  speed_->setFocusPolicy(Qt::NoFocus);  // arrows belong to the arm
+  speed_->setToolTip(tr("share of the teleop speed at full stick; the robot applies it"));
+  speed_text_ = new QLabel(tr("%1 %").arg(kDefault_pct));
+  speed_text_->setMinimumWidth(44);
+  speed_text_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
+  row->addWidget(caption);
+  row->addWidget(speed_, 1);
+  row->addWidget(speed_text_);
+  return bar;
+}
+
+QString TeleopTile::lockReason() const { return hold_.lock(HoldKind::Base); }
+
+void TeleopTile::enterTeleop() {
+  models_.commands.send(SetMode{Mode::Teleop}, tr("enter Teleop"));
+  panel_->setFocus();
+}
+
+void TeleopTile::returnToAutonomy() {
+  hold_.releaseAll({});
+  models_.commands.send(SetMode{before_}, tr("return to autonomy"));
+}
+
+void TeleopTile::sendSpeed() {
+  models_.commands.send(SetSpeedScale{speed_->value() / 100.0},
+                        tr("teleop speed %1 %").arg(speed_->value()));
+}
+
+void TeleopTile::refreshMode() {
+  const RobotStatus* status = models_.status.status();
+  const bool teleop = status && status->mode == Mode::Teleop;
+  if (status && (status->mode == Mode::Autonomous || status->mode == Mode::Supervised))
+    before_ = status->mode;
+  const bool may = models_.mayCommand();
+  enter_->setVisible(!teleop);
+  leave_->setVisible(teleop);
+  enter_->setEnabled(may);
+  leave_->setEnabled(may);
+  speed_->setEnabled(may);
+  if (!status || speed_->isSliderDown() || speed_timer_.isActive()) return;
+  const QSignalBlocker quiet(speed_);  // what the robot confirms is shown, not sent again
+  speed_->setValue(static_cast<int>(std::lround(100.0 * status->speed_scale)));
+  speed_text_->setText(tr("%1 %").arg(speed_->value()));
+}
+
+void TeleopTile::refresh() {
+  refreshMode();
+  const QString why = lockReason();
+  panel_->setLocked(!why.isEmpty());
+  const Palette& p = ui_.theme.colors();
+  const bool fresh_trip =
+      !trip_.isEmpty() && toSeconds(ui_.clock.now() - tripped_at_) < kTripShown_s;
+  QString text = why;
+  QColor color = p.dim;
+  if (fresh_trip) {
+    text = tr("let go: %1").arg(trip_);
+    color = p.caution;
+  } else if (why.isEmpty()) {
+    const QString slow = hold_.slowdown();
+    text = hold_.holding() ? tr("you drive")
+                           : tr("press and drag a stick, or click here and use the keys");
+    if (!slow.isEmpty()) text = slow;
+    color = !slow.isEmpty() ? p.caution : hold_.holding() ? p.manual : p.dim;
+  }
+  state_->setText(text);
+  state_->setStyleSheet(QStringLiteral("color: %1").arg(color.name()));
+  setInfo(why.isEmpty() ? tr("live") : tr("locked"));
+}
+
+void TeleopTile::restyle() {
+  const Palette& p = ui_.theme.colors();
+  state_->setFont(ui_.theme.font(TextRole::Small));
+  speed_text_->setFont(ui_.theme.font(TextRole::Strong));
+  if (auto* caption = findChild<QLabel*>(QStringLiteral("caption"))) {
+    caption->setFont(ui_.theme.font(TextRole::Small));
+    caption->setStyleSheet(QStringLiteral("color: %1").arg(p.dim.name()));
+  }
+  speed_->setStyleSheet(
+      QStringLiteral(
+          "QSlider::groove:horizontal { height: 5px; background: %1; border-radius: 2px; }"
+          "QSlider::sub-page:horizontal { background: %2; border-radius: 2px; }"
+          "QSlider::handle:horizontal { background: %3; border: 1px solid %4; width: 12px; margin: "
+          "-5px 0; border-radius: 6px; }")
+          .arg(p.grid.name(), p.dim.name(), p.text.name(), p.border.name()));
+  refresh();
+}
+
+}  // namespace kiln::gui

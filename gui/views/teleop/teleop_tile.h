@@ -1,0 +1,48 @@
+#pragma once
+
+#include "gui/views/teleop/hold_to_run.h"
+#include "gui/views/teleop/jog_panel.h"
+#include "gui/widgets/hold_button.h"
+#include "gui/widgets/tile.h"
+
+class QLabel;
+class QSlider;
+
+namespace kiln::gui {
+
+/// Taking over: into Teleop and back, the sticks, the speed. Says why the sticks are locked.
+class TeleopTile : public Tile {
+  Q_OBJECT
+ public:
+  /// @param hold  the station's one HoldToRun, shared with the macro and pump tile; outlives this
+  /// tile.
+  TeleopTile(const Ui& ui, HoldToRun& hold, QWidget* parent = nullptr);
+  [[nodiscard]] JogPanel& panel() { return *panel_; }
+  /// Why the sticks do nothing; empty when they are live.
+  [[nodiscard]] QString lockReason() const;
+
+ private:
+  void enterTeleop();
+  void returnToAutonomy();
+  void refresh();
+  void refreshMode();
+  void sendSpeed();
+  void restyle();
+  QWidget* makeTop();
+  QWidget* makeSpeed();
+
+  Ui ui_;
+  HoldToRun& hold_;
+  StationModels& models_;
+  JogPanel* panel_;
+  ActButton* enter_;
+  HoldButton* leave_;
+  QLabel *state_, *speed_text_;
+  QSlider* speed_;
+  QTimer speed_timer_;
+  Mode before_ = Mode::Supervised;  ///< the mode to return to
+  QString trip_;                    ///< why the last hold ended by force
+  Stamp tripped_at_;
+};
+
+}  // namespace kiln::gui
