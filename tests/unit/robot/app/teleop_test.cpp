@@ -1,0 +1,99 @@
+#include "robot/app/teleop.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/fake_devices.h"
+
+namespace kiln {
+namespace {
+
+using std::chrono::milliseconds;
+
+class TeleopTest : public testing::Test {
+ protected:
+  static RobotGeometry loadRobot() {
+    RobotGeometry robot;
+    EXPECT_TRUE(loadConfig(KILN_SOURCE_DIR "/resources/robot_model/bob.yaml", robot).has_value());
+    return robot;
+  }
+  /// Control ticks of 8 ms with the fake devices in step.
+  void run(Duration length) {
+    const Stamp end = clock_.now() + length;
+    while (clock_.now() < end) {
+      clock_.advanceBy(milliseconds(8));
+      arm_device_.advance();
+      base_device_.advance();
+      pumps_device_.advance();
+      base_.tick(clock_.now());
+      arm_.tick(clock_.now());
+      pumps_.tick(clock_.now());
+    }
+  }
+
+  RobotGeometry robot_ = loadRobot();
+  ManualClock clock_;
+  StopLatch stop_;
+  FakeArm arm_device_{clock_, robot_, RobotGeometry::radians(robot_.q_drive_deg)};
+  FakeBase base_device_{clock_, robot_};
+  FakePumps pumps_device_{clock_};
+  BaseController base_{{}, robot_, base_device_, stop_};
+  ArmController arm_{{}, robot_, arm_device_, stop_};
+  PumpController pumps_{{}, pumps_device_, stop_};
+  Teleop teleop_{{}, robot_, base_, arm_, pumps_};
+};
+
+TEST_F(TeleopTest, SilenceIsAReleaseOfTheBase) {
+  run(milliseconds(200));
+  teleop_.setSpeedScale(0.5);
+  for (int i = 0; i < 50; ++i) {
+    teleop_.jogBase({{1.0, 0.0, 0.0}}, clock_.now(), 1.0);
+    run(milliseconds(40));
+  }
+  EXPECT_NEAR(base_.tracking().commanded.vx_mps, 0.5, 0.01) << "full stick times the speed scale";
+  run(milliseconds(250));
+  const double after_ttl = base_.tracking().commanded.vx_mps;
+  run(milliseconds(100));
+  EXPECT_LT(base_.tracking().commanded.vx_mps, after_ttl + 1e-9);
+  run(milliseconds(600));
+  EXPECT_NEAR(base_.tracking().commanded.vx_mps, 0.0, 1e-3);
+}
+
+TEST_F(TeleopTest, SilenceCutsThePumps) {
+  run(milliseconds(200));
+  teleop_.holdPump({1.0, 1.0}, clock_.now());
+  run(milliseconds(100));
+  EXPECT_GT(pumps_.tracking().duty[0], 0.0);
+  run(milliseconds(250));
+  EXPECT_EQ(pumps_.tracking().duty[0], 0.0);
+}
+
+TEST_F(TeleopTest, MovesTheToolAlongTheBaseAxes) {
+  run(milliseconds(200));
+  teleop_.setSpeedScale(1.0);
+  const Eigen::Vector3d before = robot_.X_base_flange(arm_device_.state()->q).translation();
+  JogArm jog;
+  jog.frame = JogFrame::Base;
+  jog.velocity[2] = 0.1;  // up
+  for (int i = 0; i < 25; ++i) {
+    teleop_.jogArm(jog, arm_device_.state()->q, clock_.now(), 1.0);
+    run(milliseconds(40));
+  }
+  const Eigen::Vector3d moved = robot_.X_base_flange(arm_device_.state()->q).translation() - before;
+  EXPECT_GT(moved.z(), 0.05);
+  EXPECT_LT(std::hypot(moved.x(), moved.y()), 0.2 * moved.z()) << "straight up";
+}
+
+TEST_F(TeleopTest, ReleaseAllStopsEverythingAtOnce) {
+  run(milliseconds(200));
+  teleop_.holdPump({1.0, 1.0}, clock_.now());
+  teleop_.jogBase({{1.0, 0.0, 0.0}}, clock_.now(), 1.0);
+  run(milliseconds(80));
+  teleop_.releaseAll(clock_.now());
+  run(milliseconds(24));
+  EXPECT_EQ(pumps_.tracking().duty[0], 0.0);
+  run(milliseconds(800));
+  EXPECT_NEAR(base_.tracking().commanded.vx_mps, 0.0, 1e-3);
+}
+
+}  // namespace
+}  // namespace kiln
