@@ -28,6 +28,8 @@ struct Arguments {
   std::string listen = "tcp://127.0.0.1:7300";
   std::string report;
   bool exit_when_done = false;
+  bool print_config = false;
+  bool print_reference = false;
   int log_level = 2;
 };
 
@@ -57,6 +59,8 @@ void addOptions(CLI::App& app, Arguments& a) {
                  "where stations connect: tcp://127.0.0.1:PORT or ipc:///DIR/PREFIX")
       ->capture_default_str();
   app.add_option("--config", a.config, "robot config (default: resources/config/robot.yaml)");
+  app.add_flag("--print-config", a.print_config, "print the effective configuration as YAML and end");
+  app.add_flag("--print-config-reference", a.print_reference, "print every key with unit, range and meaning, and end");
   app.add_option("--log-level", a.log_level, "0 trace .. 4 error")->check(CLI::Range(0, 5));
 }
 
@@ -144,7 +148,16 @@ Result<std::unique_ptr<OperatorLink>> openLink(const Arguments& a, const RobotSe
                             clock, stop);
 }
 
+int printSettings(const Arguments& a) {
+  auto settings = loadSettings(a.config);
+  if (!settings) return fail(settings.error());
+  const ConfigNode node{[&](ConfigArchive& archive) { settings->visit(archive); }};
+  fmt::print("{}", a.print_reference ? referenceTable(node) : dumpYaml(node));
+  return kSuccess;
+}
+
 int run(Arguments a) {
+  if (a.print_config || a.print_reference) return printSettings(a);
   if (a.sim.empty() && a.lidar.empty() && a.thermal.empty()) {
     return fail({ErrorCode::InvalidInput,
                  "nothing to run on: give --sim ENDPOINT (a running kiln-sim), or --lidar FILE and "

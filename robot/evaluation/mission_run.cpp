@@ -35,8 +35,11 @@ struct Folder {
   const MissionRunOptions& options;
   [[nodiscard]] std::string file(const std::string& name) const { return scratch.file(name); }
 
+  [[nodiscard]] std::string program(const std::string& name) const {
+    return options.programs.empty() ? siblingProgram(name) : options.programs + "/" + name;
+  }
   [[nodiscard]] std::vector<std::string> worldCommand() const {
-    std::vector<std::string> argv{siblingProgram("kiln-sim"),
+    std::vector<std::string> argv{program("kiln-sim"),
                                   "--seed",
                                   std::to_string(options.seed),
                                   "--listen",
@@ -50,7 +53,7 @@ struct Folder {
     return argv;
   }
   [[nodiscard]] std::vector<std::string> robotCommand() const {
-    std::vector<std::string> argv{siblingProgram("kiln-robotd"),
+    std::vector<std::string> argv{program("kiln-robotd"),
                                   "--sim",
                                   "ipc://" + file("world"),
                                   "--mission",

@@ -9,6 +9,7 @@ namespace kiln {
 
 /// One mission in the simulator, each side in a process of its own.
 struct MissionRunOptions {
+  std::string programs;  ///< folder of kiln-sim and kiln-robotd; empty = beside this program
   std::string mission = "fire";
   int seed = 1;
   bool lockstep = true;
