@@ -218,6 +218,7 @@ struct ArmController::Impl {
     tracking.contact_force_n = contact.force();
     tracking.protective_stop = protective;
     tracking.refused = refused;
+    tracking.stop_latched = stop.latched();
     tracking.blocked = blocked;
   }
 

@@ -30,6 +30,7 @@ struct ArmTracking {
   double tracking_error_rad = 0.0;
   bool contact_stop = false;  ///< latched until the next Hold setpoint
   double contact_force_n = 0.0;
+  bool stop_latched = false;
   bool at_rest = true;
   bool protective_stop = false;  ///< latched until releaseProtectiveStop()
   bool refused =

@@ -143,6 +143,7 @@ struct BaseController::Impl {
     tracking.aligning = aligning;
     tracking.at_rest =
         fresh && limiter.velocity().isZero(1e-6) && weighted(measured.twist).norm() < kRestSpeed;
+    tracking.stop_latched = stop.latched();
     tracking.blocked = w.blocked;
   }
 

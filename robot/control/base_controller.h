@@ -27,6 +27,7 @@ struct BaseTracking {
   Pose2 X_odom_base;      ///< wheel odometry since the last reset
   double slip_mps = 0.0;  ///< rms disagreement of the wheels with one rigid motion
   bool aligning = false;  ///< waits for the wheels to point the right way
+  bool stop_latched = false;
   bool at_rest = true;
   std::string blocked;
 };

@@ -12,7 +12,6 @@ double unit(std::mt19937& random) { return static_cast<double>(random()) / 42949
 }  // namespace
 
 void ArmPlanner::Config::visit(ConfigArchive& a) {
-  a.field("clearance_m", clearance_m, "m", 0, 0.3, "least distance to anything");
   a.field("step_rad", step_rad, "rad", 0.02, 1, "longest tree edge");
   a.field("max_iterations", max_iterations, "", 10, 100000, "then the search gives up");
   a.field("shortcuts", shortcuts, "", 0, 10000, "attempts to straighten the path");

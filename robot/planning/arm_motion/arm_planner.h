@@ -16,8 +16,8 @@ namespace kiln {
 class ArmPlanner {
  public:
   struct Config {
-    double clearance_m = 0.03;
-    double step_rad = 0.35;  ///< longest tree edge, fastest joint
+    double clearance_m = 0.03;  ///< set by MoveArm, not from the file
+    double step_rad = 0.35;     ///< longest tree edge, fastest joint
     int max_iterations = 3000;
     int shortcuts = 120;
     int seed = 1;

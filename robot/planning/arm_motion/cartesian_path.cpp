@@ -104,7 +104,6 @@ void CartesianPathConfig::visit(ConfigArchive& a) {
   a.field("rotation_weight_m", rotation_weight_m, "m/rad", 0.05, 2, "way that 1 rad counts as");
   a.field("blend_radius_m", blend_radius_m, "m", 0, 0.3, "way around a corner that is rounded");
   a.field("max_joint_step_rad", max_joint_step_rad, "rad", 0.01, 1, "more leaves the branch");
-  a.field("clearance_m", clearance_m, "m", 0, 0.3, "least distance to anything");
 }
 
 Result<std::vector<JointPath>> cartesianPaths(

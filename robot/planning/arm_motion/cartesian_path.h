@@ -13,7 +13,7 @@ struct CartesianPathConfig {
   double rotation_weight_m = 0.25;   ///< 1 rad of turning counts as this much way
   double blend_radius_m = 0.04;      ///< way before and after a corner that is rounded
   double max_joint_step_rad = 0.25;  ///< more between two samples: the line leaves its branch
-  double clearance_m = 0.03;
+  double clearance_m = 0.03;         ///< set by MoveArm, not from the file
   void visit(ConfigArchive& a);
 };
 

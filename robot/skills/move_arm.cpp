@@ -1,0 +1,329 @@
+#include "robot/skills/move_arm.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <variant>
+
+#include <fmt/format.h>
+
+#include "robot/planning/arm_motion/joint_trajectory.h"
+#include "robot/planning/arm_motion/ur_inverse.h"
+
+namespace kiln {
+namespace {
+
+constexpr double kDeg = M_PI / 180.0;
+constexpr double kAnswerTime = 0.1;  // s; until the control thread has seen the first setpoint
+
+struct PoseGoal {
+  Eigen::Isometry3d X_base_flange;
+};
+struct LineGoal {
+  std::vector<Eigen::Isometry3d> X_base_flange;
+  bool blend = false;
+};
+using Goal = std::variant<Vector6d, PoseGoal, LineGoal>;
+
+std::vector<BoxConfig> sceneBoxes(const ArenaMap& arena) {
+  std::vector<BoxConfig> boxes = arena.walls;
+  boxes.insert(boxes.end(), arena.furniture.begin(), arena.furniture.end());
+  for (BoxConfig& box : arena.fireFurniture()) boxes.push_back(std::move(box));
+  return boxes;
+}
+
+}  // namespace
+
+void MoveArm::Config::visit(ConfigArchive& a) {
+  a.field("speed_scale", speed_scale, "", 0.01, 1, "of the joint speed limits");
+  a.field("cartesian_speed_mps", cartesian_speed_mps, "m/s", 0.005, 1.5, "along straight lines");
+  a.field("cartesian_accel_mps2", cartesian_accel_mps2, "m/s^2", 0.05, 5, "along straight lines");
+  a.field("guard_force_n", guard_force_n, "N", 0, 150, "contact force that stops; 0 = unguarded");
+  a.field("clearance_m", clearance_m, "m", 0, 0.3, "to base, tanks, scene and itself");
+  a.field("joint_accel_radps2", joint_accel_radps2, "rad/s^2", 0.1, 20, "each joint");
+  a.field("jerk_time_s", jerk_time_s, "s", 0.02, 1, "ramp of the acceleration");
+  a.field("goal_tolerance_deg", goal_tolerance_deg, "deg", 0.05, 10, "measured joints at the end");
+  a.field("settle_timeout_s", settle_timeout_s, "s", 0.2, 20, "to rest before and after");
+  a.field("planning_slice", planning_slice, "", 1, 10000, "search iterations in one poll");
+  a.section("planner", planner, "search for a way around obstacles");
+  a.section("cartesian", cartesian, "straight lines");
+}
+
+struct MoveArm::Impl {
+  enum class Stage { Idle, Settling, Planning, Moving };
+
+  Impl(Config c, const RobotGeometry& geometry, const ArenaMap& arena,
+       ArmController& arm_controller, const Arm& device, PoseSource source)
+      : config(withClearance(std::move(c))),
+        robot(geometry),
+        scene(sceneBoxes(arena)),
+        controller(arm_controller),
+        arm(device),
+        pose(std::move(source)),
+        collision(geometry),
+        planner(config.planner, geometry, collision) {}
+
+  static Config withClearance(Config c) {
+    c.planner.clearance_m = c.cartesian.clearance_m = c.clearance_m;
+    return c;
+  }
+
+  void start(Goal wanted, Stamp now) {
+    goal = std::move(wanted);
+    stage = Stage::Settling;
+    status = {SkillPhase::Running, 0.0, "coming to rest", ""};
+    trajectory.reset();
+    stage_began = last = now;
+    hold(now);
+  }
+
+  void hold(Stamp now) {
+    ArmSetpoint setpoint;
+    setpoint.stamp = now;
+    controller.setpoint(setpoint);
+  }
+
+  SkillStatus fail(const char* code, std::string text, Stamp now) {
+    hold(now);
+    stage = Stage::Idle;
+    status.phase = SkillPhase::Failed;
+    status.failure_code = code;
+    status.text = std::move(text);
+    return status;
+  }
+
+  void enter(Stage next, Stamp now) {
+    stage = next;
+    stage_began = now;
+  }
+
+  SkillStatus poll(Stamp now) {
+    if (status.phase != SkillPhase::Running) return status;
+    last = now;
+    const ArmTracking tracking = controller.tracking();
+    if (tracking.protective_stop) return fail("protective_stop", tracking.blocked, now);
+    if (tracking.stop_latched) return fail("stopped", tracking.blocked, now);
+    switch (stage) {
+      case Stage::Settling:
+        return settle(tracking, now);
+      case Stage::Planning:
+        return search(now);
+      case Stage::Moving:
+        return move(tracking, now);
+      case Stage::Idle:
+        break;
+    }
+    return status;
+  }
+
+  SkillStatus settle(const ArmTracking& tracking, Stamp now) {
+    hold(now);
+    // Only a tick after the Hold tells whether the arm rests.
+    const bool answered = tracking.stamp > stage_began;
+    if (answered && tracking.ready && tracking.at_rest && !tracking.contact_stop) {
+      q_start = tracking.q_command;
+      return plan(now);
+    }
+    if (toSeconds(now - stage_began) > config.settle_timeout_s) {
+      return fail("tracking",
+                  tracking.blocked.empty() ? "the arm does not come to rest"
+                                           : "the arm is not ready: " + tracking.blocked,
+                  now);
+    }
+    return status;
+  }
+
+  SkillStatus plan(Stamp now) {
+    collision.setScene(scene, pose());
+    if (const auto* lines = std::get_if<LineGoal>(&goal)) return planLines(*lines, now);
+    std::vector<Vector6d> goals;
+    if (const auto* q = std::get_if<Vector6d>(&goal)) {
+      if (!withinLimits(robot.arm, *q)) {
+        return fail("unreachable", "the goal is outside the joint limits", now);
+      }
+      goals = {*q};
+    } else {
+      goals = postures(std::get<PoseGoal>(goal).X_base_flange, q_start);
+      if (goals.empty()) return fail("unreachable", "no arm posture reaches the pose", now);
+    }
+    std::string nearest;
+    std::erase_if(goals, [&](const Vector6d& q) { return !roomFor(collision, q, nearest); });
+    if (goals.empty()) return fail("in_collision", "the goal is too near: " + nearest, now);
+    enter(Stage::Planning, now);
+    return proceed(planner.start(q_start, goals), now);
+  }
+
+  /// Nearest first, by the time the slowest joint needs.
+  std::vector<Vector6d> postures(const Eigen::Isometry3d& X_base_flange,
+                                 const Vector6d& from) const {
+    std::vector<Vector6d> out;
+    const Eigen::Isometry3d X = robot.X_base_armbase.pose().inverse() * X_base_flange;
+    if (!isFinite(X)) return out;
+    for (const Vector6d& q : inverseSolutions(robot.arm, X, from)) {
+      out.push_back(nearestTurn(robot.arm, q, from));
+    }
+    const auto cost = [&](const Vector6d& q) {
+      return (q - from).cwiseAbs().cwiseQuotient(robot.arm.velocity_limit).maxCoeff();
+    };
+    std::stable_sort(out.begin(), out.end(),
+                     [&](const Vector6d& a, const Vector6d& b) { return cost(a) < cost(b); });
+    return out;
+  }
+
+  bool roomFor(const ArmCollision& world, const Vector6d& q, std::string& what) const {
+    const Clearance room = world.clearance(q);
+    if (room.distance_m >= config.clearance_m) return true;
+    if (what.empty()) what = fmt::format("{}, {:.0f} mm", room.what, 1e3 * room.distance_m);
+    return false;
+  }
+
+  SkillStatus planLines(const LineGoal& lines, Stamp now) {
+    for (const Eigen::Isometry3d& X : lines.X_base_flange) {
+      if (!isFinite(X)) return fail("unreachable", "the pose is not a number", now);
+    }
+    if (lines.X_base_flange.empty()) return fail("unreachable", "no pose to go to", now);
+    auto paths = cartesianPaths(robot, collision, config.cartesian, q_start, lines.X_base_flange,
+                                lines.blend);
+    if (!paths) {
+      const bool near = paths.error().code == ErrorCode::Refused;
+      return fail(near ? "in_collision" : "unreachable", paths.error().message, now);
+    }
+    JointPathLimits limits = jointLimits();
+    limits.path_speed = config.cartesian_speed_mps;
+    limits.path_accel = config.cartesian_accel_mps2;
+    return begin(JointTrajectory(std::move(*paths), limits), now);
+  }
+
+  JointPathLimits jointLimits() const {
+    JointPathLimits limits;
+    limits.speed = config.speed_scale * robot.arm.velocity_limit;
+    limits.accel = Vector6d::Constant(config.joint_accel_radps2);
+    limits.jerk_time_s = config.jerk_time_s;
+    return limits;
+  }
+
+  SkillStatus search(Stamp now) {
+    hold(now);
+    return proceed(planner.advance(config.planning_slice), now);
+  }
+
+  SkillStatus proceed(ArmPlanner::Progress progress, Stamp now) {
+    if (progress == ArmPlanner::Progress::Failed) {
+      const Clearance here = collision.clearance(q_start);
+      return fail("in_collision",
+                  here.distance_m <= 0.0 ? "the arm already touches: " + here.what
+                                         : "no way around the obstacles was found",
+                  now);
+    }
+    if (progress == ArmPlanner::Progress::Running) {
+      status.text = fmt::format("planning, {} tries", planner.iterations());
+      return status;
+    }
+    std::vector<JointPath> paths;
+    for (std::size_t k = 1; k < planner.path().size(); ++k) {
+      paths.push_back(straightJointPath(planner.path()[k - 1], planner.path()[k]));
+    }
+    return begin(JointTrajectory(std::move(paths), jointLimits()), now);
+  }
+
+  SkillStatus begin(JointTrajectory planned, Stamp now) {
+    trajectory = std::move(planned);
+    enter(Stage::Moving, now);
+    stream(now);
+    return status;
+  }
+
+  void stream(Stamp now) {
+    const JointTrajectory::Point point = trajectory->at(toSeconds(now - stage_began));
+    ArmSetpoint setpoint;
+    setpoint.kind = ArmSetpoint::Kind::Joints;
+    setpoint.stamp = now;
+    setpoint.q = point.q;
+    setpoint.qd = point.qd;
+    setpoint.stop_force_n = config.guard_force_n;
+    controller.setpoint(setpoint);
+  }
+
+  SkillStatus move(const ArmTracking& tracking, Stamp now) {
+    const double t = toSeconds(now - stage_began);
+    if (tracking.contact_stop) return fail("contact", tracking.blocked, now);
+    const bool answered = t > kAnswerTime;
+    if (answered && !tracking.blocked.empty()) return fail("tracking", tracking.blocked, now);
+    if (answered && now - tracking.stamp > std::chrono::milliseconds(500)) {
+      return fail("timeout", "the control loop does not answer", now);
+    }
+    stream(now);
+    const double left = std::max(0.0, trajectory->duration() - t);
+    status.progress = trajectory->duration() > 0.0 ? 1.0 - left / trajectory->duration() : 1.0;
+    status.text = fmt::format("{:.1f} s to go", left);
+    if (left > 0.0) return status;
+    const std::optional<ArmState> state = arm.state();
+    const double off = state ? (state->q - trajectory->goal()).cwiseAbs().maxCoeff() : INFINITY;
+    if (answered && tracking.at_rest && off < config.goal_tolerance_deg * kDeg) {
+      stage = Stage::Idle;
+      status = {SkillPhase::Done, 1.0, "there", ""};
+    } else if (t > trajectory->duration() + config.settle_timeout_s) {
+      return fail("tracking", fmt::format("the arm stays {:.1f} deg off its goal", off / kDeg),
+                  now);
+    }
+    return status;
+  }
+
+  Result<Vector6d> check(const Eigen::Isometry3d& X_base_flange) const {
+    const std::optional<ArmState> state = arm.state();
+    const auto goals = postures(X_base_flange, state ? state->q : Vector6d::Zero());
+    if (goals.empty()) return makeError(ErrorCode::Degenerate, "no arm posture reaches the pose");
+    ArmCollision world(robot);
+    world.setScene(scene, pose());
+    std::string nearest;
+    for (const Vector6d& q : goals) {
+      if (roomFor(world, q, nearest)) return q;
+    }
+    return makeError(ErrorCode::Refused, "the pose is too near: {}", nearest);
+  }
+
+  Config config;
+  const RobotGeometry& robot;
+  std::vector<BoxConfig> scene;
+  ArmController& controller;
+  const Arm& arm;
+  PoseSource pose;
+  ArmCollision collision;
+  ArmPlanner planner;
+  Goal goal = Vector6d(Vector6d::Zero());
+  Stage stage = Stage::Idle;
+  Stamp stage_began, last;
+  Vector6d q_start = Vector6d::Zero();
+  std::optional<JointTrajectory> trajectory;
+  SkillStatus status;
+};
+
+MoveArm::MoveArm(Config config, const RobotGeometry& robot, const ArenaMap& arena,
+                 ArmController& controller, const Arm& arm, PoseSource pose)
+    : impl_(std::make_unique<Impl>(std::move(config), robot, arena, controller, arm,
+                                   std::move(pose))) {}
+MoveArm::~MoveArm() = default;
+
+void MoveArm::startJoints(const Vector6d& q_goal, Stamp now) { impl_->start(q_goal, now); }
+
+void MoveArm::startPose(const Eigen::Isometry3d& X_base_flange, Stamp now) {
+  impl_->start(PoseGoal{X_base_flange}, now);
+}
+
+void MoveArm::startCartesian(std::vector<Eigen::Isometry3d> X_base_flange, bool blend, Stamp now) {
+  impl_->start(LineGoal{std::move(X_base_flange), blend}, now);
+}
+
+SkillStatus MoveArm::poll(Stamp now) { return impl_->poll(now); }
+
+void MoveArm::cancel() {
+  if (impl_->status.phase == SkillPhase::Running) impl_->hold(impl_->last);
+  impl_->stage = Impl::Stage::Idle;
+  impl_->status = {SkillPhase::Idle, 0.0, "cancelled", ""};
+}
+
+Result<Vector6d> MoveArm::check(const Eigen::Isometry3d& X_base_flange) const {
+  return impl_->check(X_base_flange);
+}
+
+}  // namespace kiln
