@@ -197,6 +197,7 @@ WorldReport World::advance(Stamp until) {
 
 Stamp World::now() const { return impl_->now; }
 std::optional<SceneState> World::colourDue() { return impl_->sensors.takeColourDue(); }
+std::uint64_t World::seed() const { return impl_->seed; }
 const WorldConfig& World::config() const { return impl_->config; }
 const TrueArena& World::arena() const { return impl_->arena; }
 const RobotGeometry& World::robot() const { return impl_->robot; }

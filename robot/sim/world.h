@@ -95,6 +95,7 @@ class World {
   /// The scene of an operator camera frame that became due in the last advance(), if nobody
   /// rendered it.
   [[nodiscard]] std::optional<SceneState> colourDue();
+  [[nodiscard]] std::uint64_t seed() const;
   [[nodiscard]] const WorldConfig& config() const;
   [[nodiscard]] const TrueArena& arena() const;
   [[nodiscard]] const RobotGeometry& robot() const;

@@ -166,6 +166,7 @@ void WorldServer::Impl::hello(const std::string& id, int fd, const v1::device::H
   reply.set_lockstep(config.lockstep);
   reply.set_device_period_s(world.config().device_period_s);
   reply.set_world(world.config().name);
+  reply.set_seed(world.seed());
   if (m.protocol() != PROTOCOL_CURRENT || m.version() != config.version) {
     refuse(REFUSAL_VERSION, fmt::format("the world speaks device protocol {} of version {}, the "
                                         "robot {} of {}; build both from one tree",

@@ -1,0 +1,135 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <mutex>
+
+#include "common/core/latest_value.h"
+#include "kiln/v1/device.pb.h"
+#include "robot/sim_link/sim_link.h"
+
+namespace kiln {
+
+/// Commands waiting for the socket: the newest of each device; reset and release stay until they
+/// are sent. Thread-safe.
+class Outbox {
+ public:
+  /// Called after each change, from the commanding thread (wakes the io thread).
+  std::function<void()> wake = [] {};
+
+  template <class Change>
+  Result<void> put(Change change) {
+    if (!open_.load()) {
+      return makeError(ErrorCode::Unavailable, "the world does not answer; is kiln-sim running?");
+    }
+    {
+      const std::lock_guard lock(mutex_);
+      change(pending_);
+      filled_ = true;
+    }
+    wake();
+    return {};
+  }
+  [[nodiscard]] bool take(v1::device::Advance& out);
+  void setOpen(bool open);
+  [[nodiscard]] bool open() const { return open_.load(); }
+
+ private:
+  std::mutex mutex_;
+  v1::device::Advance pending_;
+  bool filled_ = false;
+  std::atomic<bool> open_{false};
+};
+
+class SimArm final : public Arm {
+ public:
+  explicit SimArm(Outbox& outbox) : outbox_(outbox) {}
+  [[nodiscard]] std::optional<ArmState> state() const override { return latest.peek(); }
+  Result<void> servo(const ArmServo& target) override;
+  Result<void> releaseProtectiveStop() override;
+  LatestValue<ArmState> latest;
+
+ private:
+  Outbox& outbox_;
+};
+
+class SimDriveBase final : public DriveBase {
+ public:
+  explicit SimDriveBase(Outbox& outbox) : outbox_(outbox) {}
+  [[nodiscard]] std::optional<BaseState> state() const override { return latest.peek(); }
+  Result<void> write(const WheelCommands& command) override;
+  LatestValue<BaseState> latest;
+
+ private:
+  Outbox& outbox_;
+};
+
+class SimPumps final : public Pumps {
+ public:
+  explicit SimPumps(Outbox& outbox) : outbox_(outbox) {}
+  [[nodiscard]] std::optional<PumpsState> state() const override { return latest.peek(); }
+  Result<void> write(const std::array<double, 2>& duty) override;
+  LatestValue<PumpsState> latest;
+
+ private:
+  Outbox& outbox_;
+};
+
+class SimArena final : public Arena {
+ public:
+  explicit SimArena(Outbox& outbox) : outbox_(outbox) {}
+  Result<void> requestReset() override;
+
+ private:
+  Outbox& outbox_;
+};
+
+/// Which sensors run, as one message; shared by the three sensors below. Thread-safe.
+class SensorSwitch {
+ public:
+  explicit SensorSwitch(Outbox& outbox) : outbox_(outbox) {}
+  Result<void> set(int sensor, bool on);
+  /// After a (re)connect: says again what is wanted.
+  void repeat();
+  static constexpr int kLidar = 0, kThermal = 1, kOperatorCamera = 2;
+
+ private:
+  void fill(v1::device::Advance& message) const;
+  Outbox& outbox_;
+  mutable std::mutex mutex_;
+  std::array<bool, 3> on_{};
+};
+
+/// A sensor of the world: `Interface` is Lidar, ThermalCamera or RgbCamera.
+template <class Interface, class FramePtr, int kSensor>
+class SimSensor final : public Interface {
+ public:
+  explicit SimSensor(SensorSwitch& sensors) : sensors_(sensors) {}
+  Result<void> start(Sink<FramePtr> sink) override {
+    {
+      const std::lock_guard lock(mutex_);
+      sink_ = std::move(sink);
+    }
+    return sensors_.set(kSensor, true);
+  }
+  void stop() override {
+    (void)sensors_.set(kSensor, false);  // a world that is gone has stopped by itself
+    const std::lock_guard lock(mutex_);
+    sink_ = nullptr;
+  }
+  void deliver(FramePtr frame) {
+    const std::lock_guard lock(mutex_);
+    if (sink_) sink_(std::move(frame));
+  }
+
+ private:
+  SensorSwitch& sensors_;
+  std::mutex mutex_;
+  Sink<FramePtr> sink_;
+};
+
+using SimLidar = SimSensor<Lidar, PointCloudPtr, SensorSwitch::kLidar>;
+using SimThermalCamera = SimSensor<ThermalCamera, ThermalImagePtr, SensorSwitch::kThermal>;
+using SimOperatorCamera = SimSensor<RgbCamera, RgbImagePtr, SensorSwitch::kOperatorCamera>;
+
+}  // namespace kiln

@@ -1,0 +1,256 @@
+#include "robot/sim_link/sim_link.h"
+
+#include <atomic>
+#include <cmath>
+#include <mutex>
+#include <thread>
+
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include "common/core/check.h"
+#include "common/core/log.h"
+#include "robot/sim_link/clock_map.h"
+#include "robot/sim_link/device_codec.h"
+#include "robot/sim_link/sim_devices.h"
+#include "robot/sim_link/world_socket.h"
+
+namespace kiln {
+namespace {
+
+constexpr std::chrono::milliseconds kPoll{50};
+constexpr Duration kHelloAgain = std::chrono::milliseconds(500);
+
+/// Wakes the io thread out of its poll.
+class WakeEvent {
+ public:
+  WakeEvent() : fd_(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {
+    KILN_CHECK(fd_ >= 0, "no file descriptors left");
+  }
+  ~WakeEvent() { ::close(fd_); }
+  WakeEvent(const WakeEvent&) = delete;
+  WakeEvent& operator=(const WakeEvent&) = delete;
+  void signal() const {
+    const std::uint64_t one = 1;
+    (void)!::write(fd_, &one, sizeof(one));
+  }
+  [[nodiscard]] int fd() const { return fd_; }
+
+ private:
+  int fd_;
+};
+
+}  // namespace
+
+void SimLink::Config::visit(ConfigArchive& a) {
+  a.field("endpoint", endpoint, "ipc://PATH or tcp://127.0.0.1:PORT of kiln-sim");
+  a.field("hello_timeout_s", hello_timeout_s, "s", 0.1, 600,
+          "how long to wait for the world at the start");
+  a.field("silence_s", silence_s, "s", 0.1, 60, "no report for so long: the world is lost");
+  a.field("lockstep_timeout_s", lockstep_timeout_s, "s", 0.1, 3600,
+          "wall time for one answer in lockstep");
+}
+
+struct SimLink::Impl {
+  Impl(const Config& c, const Clock& k) : config(c), clock(k) {}
+  ~Impl();
+
+  [[nodiscard]] v1::device::Hello hello() const;
+  Result<void> open();
+  void welcome();
+  void takeReport(const v1::device::Report& report, Duration shift);
+  void run(std::stop_token stop);
+  void handle(const v1::device::ToRobot& message);
+  void watchSilence();
+  Result<void> advanceTo(Stamp until);
+  template <class T, class Deliver>
+  void deliver(const Result<T>& value, Deliver to) {
+    if (value) return to(*value);
+    logger("sim_link")->warn("{}", value.error().message);
+  }
+
+  Config config;
+  const Clock& clock;
+  WakeEvent wake;
+  Outbox outbox;
+  SensorSwitch sensors{outbox};
+  SimArm arm{outbox};
+  SimDriveBase base{outbox};
+  SimPumps pumps{outbox};
+  SimArena arena{outbox};
+  SimLidar lidar{sensors};
+  SimThermalCamera thermal{sensors};
+  SimOperatorCamera camera{sensors};
+  World world;
+  ClockMap clock_map;
+  LatestValue<Stamp> last_report;  ///< daemon's clock
+  LatestValue<std::string> refusal;
+  std::atomic<std::uint32_t> resets{0}, reconnects{0};
+  Stamp last_hello, opened;
+  std::unique_ptr<WorldSocket> socket;
+  std::jthread io;
+};
+
+SimLink::Impl::~Impl() {
+  if (io.joinable()) {
+    io.request_stop();
+    wake.signal();
+    io.join();
+  }
+  if (!socket) return;
+  v1::device::ToWorld bye;
+  bye.mutable_bye();
+  (void)socket->send(bye);
+}
+
+v1::device::Hello SimLink::Impl::hello() const {
+  v1::device::Hello m;
+  m.set_protocol(v1::device::PROTOCOL_CURRENT);
+  m.set_lockstep(config.lockstep);
+  m.set_version(config.version);
+  return m;
+}
+
+Result<void> SimLink::Impl::open() {
+  auto opened_socket = WorldSocket::open(config.endpoint, config.lockstep ? -1 : wake.fd());
+  if (!opened_socket) return tl::make_unexpected(opened_socket.error());
+  socket = std::move(*opened_socket);
+  const auto reply = socket->hello(hello(), config.hello_timeout_s);
+  if (!reply) {
+    socket.reset();  // nothing to say bye to
+    return tl::make_unexpected(reply.error());
+  }
+  world.name = reply->world();
+  world.seed = reply->seed();
+  world.device_period = fromSeconds(reply->device_period_s());
+  world.now = stampFromNanoseconds(reply->now_ns());
+  welcome();
+  if (!config.lockstep) {
+    outbox.wake = [this] { wake.signal(); };
+    io = std::jthread([this](std::stop_token stop) { run(stop); });
+  }
+  return {};
+}
+
+void SimLink::Impl::welcome() {
+  opened = clock.now();
+  clock_map.restart();
+  outbox.setOpen(true);
+}
+
+void SimLink::Impl::takeReport(const v1::device::Report& report, Duration shift) {
+  deliver(armFromProto(report, shift), [this](const ArmState& s) { arm.latest.put(s); });
+  deliver(baseFromProto(report, shift), [this](const BaseState& s) { base.latest.put(s); });
+  deliver(pumpsFromProto(report, shift), [this](const PumpsState& s) { pumps.latest.put(s); });
+  resets.store(report.resets());
+  refusal.put(report.refused());
+  last_report.put(config.lockstep ? stampFromNanoseconds(report.now_ns()) : clock.now());
+  for (const auto& scan : report.lidar())
+    deliver(cloudFromProto(scan, shift), [this](const PointCloudPtr& c) { lidar.deliver(c); });
+  for (const auto& frame : report.thermal())
+    deliver(thermalFromProto(frame, shift),
+            [this](const ThermalImagePtr& i) { thermal.deliver(i); });
+  for (const auto& frame : report.colour())
+    deliver(colourFromProto(frame, shift), [this](const RgbImagePtr& i) { camera.deliver(i); });
+}
+
+void SimLink::Impl::handle(const v1::device::ToRobot& message) {
+  if (message.has_hello()) {
+    if (!message.hello().accepted()) {
+      logger("sim_link")->warn("kiln-sim refuses: {}", message.hello().reason());
+      return;
+    }
+    welcome();
+    ++reconnects;
+    sensors.repeat();
+    logger("sim_link")->info("world '{}' is back", message.hello().world());
+    return;
+  }
+  if (!message.has_report()) return;
+  clock_map.observe(clock.now(), stampFromNanoseconds(message.report().now_ns()));
+  takeReport(message.report(), clock_map.shift());
+}
+
+/// No report for a while: refuse commands, and knock until somebody opens.
+void SimLink::Impl::watchSilence() {
+  const Stamp now = clock.now();
+  const Stamp heard = std::max(opened, last_report.peek().value_or(opened));
+  if (toSeconds(now - heard) < config.silence_s) return;
+  if (outbox.open()) {
+    logger("sim_link")
+        ->error("no report from kiln-sim for {:.1f} s; commands are refused until it answers",
+                config.silence_s);
+    outbox.setOpen(false);
+  }
+  if (now - last_hello < kHelloAgain) return;
+  last_hello = now;
+  v1::device::ToWorld out;
+  *out.mutable_hello() = hello();
+  (void)socket->send(out);
+}
+
+void SimLink::Impl::run(std::stop_token stop) {
+  ::pthread_setname_np(::pthread_self(), "io.sim");
+  while (!stop.stop_requested()) {
+    v1::device::ToWorld out;
+    if (outbox.take(*out.mutable_advance())) (void)socket->send(out);
+    if (const auto message = socket->receive(kPoll)) handle(*message);
+    (void)socket->lost();  // silence tells the same; this empties the monitor
+    watchSilence();
+  }
+}
+
+Result<void> SimLink::Impl::advanceTo(Stamp until) {
+  KILN_CHECK(config.lockstep, "advanceTo() in real time");
+  v1::device::ToWorld out;
+  (void)outbox.take(*out.mutable_advance());
+  out.mutable_advance()->set_until_ns(toNanoseconds(until));
+  const auto gone = [this](const char* what) {
+    outbox.setOpen(false);
+    return makeError(ErrorCode::Unavailable, "kiln-sim {}; see its output, then start both again",
+                     what);
+  };
+  if (!outbox.open() || !socket->send(out)) return gone("is gone");
+  const int slices = std::max(1, static_cast<int>(std::lround(config.lockstep_timeout_s / 0.1)));
+  for (int slice = 0; slice < slices; ++slice) {
+    const auto message = socket->receive(std::chrono::milliseconds(100));
+    if (message && message->has_report()) {
+      takeReport(message->report(), Duration{0});
+      return {};
+    }
+    if (socket->lost()) return gone("ended in the middle of a step");
+  }
+  return gone("does not answer");
+}
+
+SimLink::SimLink(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+SimLink::~SimLink() = default;
+
+Result<std::unique_ptr<SimLink>> SimLink::connect(const Config& config, const Clock& clock) {
+  auto impl = std::make_unique<Impl>(config, clock);
+  if (auto ok = impl->open(); !ok) return tl::make_unexpected(ok.error());
+  return std::unique_ptr<SimLink>(new SimLink(std::move(impl)));
+}
+
+Arm& SimLink::arm() { return impl_->arm; }
+DriveBase& SimLink::base() { return impl_->base; }
+Pumps& SimLink::pumps() { return impl_->pumps; }
+Lidar& SimLink::lidar() { return impl_->lidar; }
+ThermalCamera& SimLink::thermalCamera() { return impl_->thermal; }
+RgbCamera& SimLink::operatorCamera() { return impl_->camera; }
+Arena& SimLink::arena() { return impl_->arena; }
+Result<void> SimLink::advanceTo(Stamp until) { return impl_->advanceTo(until); }
+const SimLink::World& SimLink::world() const { return impl_->world; }
+bool SimLink::lockstep() const { return impl_->config.lockstep; }
+bool SimLink::connected() const { return impl_->outbox.open(); }
+std::uint32_t SimLink::resets() const { return impl_->resets.load(); }
+std::string SimLink::refusal() const { return impl_->refusal.peek().value_or(""); }
+std::uint32_t SimLink::reconnects() const { return impl_->reconnects.load(); }
+
+std::optional<Duration> SimLink::lastReportAge() const {
+  const auto last = impl_->last_report.peek();
+  if (!last) return std::nullopt;
+  return impl_->clock.now() - *last;
+}
+
+}  // namespace kiln

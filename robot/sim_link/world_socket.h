@@ -1,0 +1,39 @@
+#pragma once
+
+#include <chrono>
+
+#include <zmq.hpp>
+
+#include "common/core/error.h"
+#include "kiln/v1/device.pb.h"
+
+namespace kiln {
+
+/// The robot's end of the device socket: messages in and out, hello. Confined to one thread at a
+/// time.
+class WorldSocket {
+ public:
+  /// @param wake_fd becomes readable when wait() is to return early; -1: none.
+  static Result<std::unique_ptr<WorldSocket>> open(const std::string& endpoint, int wake_fd);
+
+  /// Never blocks. @return false when the world is not there to take it.
+  bool send(const v1::device::ToWorld& message);
+  /// The next message, or nullopt when none came in that time (or the wake fd fired).
+  [[nodiscard]] std::optional<v1::device::ToRobot> receive(std::chrono::milliseconds wait);
+  /// Whether the connection closed since the last call.
+  [[nodiscard]] bool lost();
+  /// Says hello until the world answers. A busy robot is asked again for a while: its last daemon
+  /// may just be dying.
+  [[nodiscard]] Result<v1::device::HelloReply> hello(const v1::device::Hello& message,
+                                                     double timeout_s);
+
+ private:
+  explicit WorldSocket(int wake_fd) : wake_fd_(wake_fd) {}
+  zmq::context_t context_{1};
+  zmq::socket_t socket_{context_, zmq::socket_type::dealer};
+  zmq::socket_t monitor_{context_, zmq::socket_type::pair};
+  std::string endpoint_;
+  int wake_fd_;
+};
+
+}  // namespace kiln
