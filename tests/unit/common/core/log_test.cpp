@@ -9,16 +9,17 @@ namespace kiln {
 namespace {
 
 TEST(Log, EveryLoggerReachesAnAddedSinkWithNameAndLevel) {
-  // Static: a sink stays for the process, as the station's event log does.
-  static std::vector<LogRecord> records;
-  static std::mutex mutex;
-  addLogSink([](const LogRecord& record) {
+  std::vector<LogRecord> records;
+  std::mutex mutex;
+  LogSinkHandle sink = addLogSink([&](const LogRecord& record) {
     const std::lock_guard lock(mutex);
     records.push_back(record);
   });
   logger("test.before")->info("one {}", 1);
   logger("test.after")->warn("two");
   logger("test.after")->debug("below the level, not delivered");
+  sink.reset();
+  logger("test.before")->info("after the sink was taken away");
   const std::lock_guard lock(mutex);
   ASSERT_EQ(records.size(), 2U);
   EXPECT_EQ(records[0].logger, "test.before");

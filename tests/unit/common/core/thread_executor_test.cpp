@@ -89,22 +89,24 @@ TEST(ThreadExecutor, DeliversJobsFromThePool) {
   EXPECT_TRUE(delivered.waitFor(2));
 }
 
-TEST(ThreadExecutor, RefusesAJobWhoseKindIsAlreadyWaiting) {
+TEST(ThreadExecutor, KeepsOneJobOfAKindInFlightAndCountsTheRefused) {
   const SteadyClock clock;
   ThreadExecutor executor(clock, 1);
   std::latch release(1);
   Signal running, done;
   executor.start();
-  const auto blocking = [&](std::stop_token) -> Delivery {
-    running.raise();
-    release.wait();
-    return [&] { done.raise(); };
-  };
-  ASSERT_TRUE(executor.post({"scan", {}, blocking}));
-  ASSERT_TRUE(running.waitFor(1));  // taken off the queue: its kind is free to wait
-  EXPECT_TRUE(executor.post({"scan", {}, blocking}));   // waits
-  EXPECT_FALSE(executor.post({"scan", {}, blocking}));  // a second one need not
-  EXPECT_EQ(executor.droppedJobs(), 1U);
+  const Job scan{"scan", {}, [&](std::stop_token) -> Delivery {
+                   running.raise();
+                   release.wait();
+                   return [&] { done.raise(); };
+                 }};
+  ASSERT_TRUE(executor.post(scan));
+  ASSERT_TRUE(running.waitFor(1));
+  EXPECT_FALSE(executor.post(scan)) << "one is running";
+  const Job heat{"heat", {}, [&](std::stop_token) -> Delivery { return [&] { done.raise(); }; }};
+  EXPECT_TRUE(executor.post(heat)) << "another kind is no obstacle";
+  EXPECT_FALSE(executor.post(heat)) << "one is waiting";
+  EXPECT_EQ(executor.droppedJobs(), 2U);
   release.count_down();
   EXPECT_TRUE(done.waitFor(2));
 }
