@@ -22,9 +22,9 @@ std::string_view toString(LinkState state) {
 
 void LinkWatch::heard(Monotonic::time_point now) { heard_ = now; }
 
-void LinkWatch::robotHeardUs(double rx_age_s, Monotonic::time_point now) {
+void LinkWatch::robotHeardUs(double age_s, Monotonic::time_point now) {
   const auto age =
-      std::chrono::duration_cast<Monotonic::duration>(std::chrono::duration<double>(rx_age_s));
+      std::chrono::duration_cast<Monotonic::duration>(std::chrono::duration<double>(age_s));
   robot_heard_us_ = std::max(robot_heard_us_.value_or(Monotonic::time_point{}), now - age);
 }
 

@@ -14,8 +14,9 @@ class LinkWatch {
 
   /// Anything arrived from the robot.
   void heard(Monotonic::time_point now);
-  /// A heartbeat of the robot: how old our last message was when it left.
-  void robotHeardUs(double rx_age_s, Monotonic::time_point now);
+  /// The robot answered a heartbeat that left here `age_s` ago: our word is at least that fresh
+  /// there.
+  void robotHeardUs(double age_s, Monotonic::time_point now);
   void accepted();                          ///< hello answered with yes
   void refused(const std::string& reason);  ///< ... or with no
 
@@ -33,7 +34,7 @@ class LinkWatch {
   std::string refusal_;
   std::optional<Monotonic::time_point> heard_;
   std::optional<Monotonic::time_point>
-      robot_heard_us_;  ///< latest time at which the robot had just heard us
+      robot_heard_us_;  ///< when the newest heartbeat that it answered left here
 };
 
 }  // namespace kiln

@@ -18,7 +18,7 @@
 namespace kiln {
 namespace {
 
-constexpr double kHelloPeriod_s = 0.5;
+constexpr double kHelloPeriod_s = 0.1;
 constexpr double kHeartbeatPeriod_s = 0.2;
 constexpr double kFirstHeartbeats_s =
     0.04;  // quick ones after a hello: the clock estimate must not wait
@@ -171,8 +171,11 @@ void OperatorSession::Impl::onHelloReply(const HelloReply& reply) {
 void OperatorSession::Impl::onHeartbeat(const Heartbeat& heartbeat) {
   const std::int64_t received_ns = toNanoseconds(clock.now());
   const std::lock_guard lock(mutex);
-  watch.robotHeardUs(heartbeat.rx_age_s, monotonicNow());
-  if (heartbeat.station_send_ns == 0) return;  // unasked for: no exchange
+  // Sent unasked when the robot has not heard us for a while: it keeps the down-link alive and
+  // proves nothing else.
+  if (heartbeat.station_send_ns == 0) return;
+  watch.robotHeardUs(static_cast<double>(received_ns - heartbeat.station_send_ns) * 1e-9,
+                     monotonicNow());
   sync.add(heartbeat.station_send_ns, heartbeat.robot_receive_ns, heartbeat.robot_send_ns,
            received_ns);
 }

@@ -19,6 +19,7 @@ constexpr std::size_t kSendQueue = 64;
 constexpr std::size_t kMostDelayed = 256;
 constexpr int kStatusHwm = 64;
 constexpr int kStreamsHwm = 4;
+constexpr int kSubscriptionsHwm = 64;  // a subscription that does not fit is silently lost
 constexpr std::int64_t kMaxStreamBytes = 16 << 20;
 
 }  // namespace
@@ -27,8 +28,8 @@ struct StationEnd::Impl {
   explicit Impl(Options opts)
       : options(std::move(opts)),
         commands(context, SocketKind::Dealer, {64, 64, 64 << 10, options.client_id}),
-        status(context, SocketKind::Sub, {1, kStatusHwm, kMaxStreamBytes, ""}),
-        streams(context, SocketKind::Sub, {1, kStreamsHwm, kMaxStreamBytes, ""}),
+        status(context, SocketKind::Sub, {kSubscriptionsHwm, kStatusHwm, kMaxStreamBytes, ""}),
+        streams(context, SocketKind::Sub, {kSubscriptionsHwm, kStreamsHwm, kMaxStreamBytes, ""}),
         random(options.faults.seed) {}
 
   void run(std::stop_token stop);
