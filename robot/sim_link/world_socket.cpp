@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <unistd.h>
+#include <zmq.hpp>
 
 namespace kiln {
 namespace {
@@ -21,6 +22,16 @@ Error refused(const v1::device::HelloReply& reply) {
 
 }  // namespace
 
+struct WorldSocket::Sockets {
+  zmq::context_t context{1};
+  zmq::socket_t data{context, zmq::socket_type::dealer};
+  zmq::socket_t monitor{context, zmq::socket_type::pair};
+};
+
+WorldSocket::WorldSocket(int wake_fd) : sockets_(std::make_unique<Sockets>()), wake_fd_(wake_fd) {}
+
+WorldSocket::~WorldSocket() = default;
+
 Result<std::unique_ptr<WorldSocket>> WorldSocket::open(const std::string& endpoint, int wake_fd) {
   if (!(endpoint.starts_with("ipc://") && endpoint.size() > 6) &&
       !endpoint.starts_with("tcp://127.0.0.1:") && !endpoint.starts_with("tcp://localhost:")) {
@@ -30,14 +41,14 @@ Result<std::unique_ptr<WorldSocket>> WorldSocket::open(const std::string& endpoi
   std::unique_ptr<WorldSocket> out(new WorldSocket(wake_fd));
   out->endpoint_ = endpoint;
   try {
-    out->socket_.set(zmq::sockopt::linger, 500);  // ms, for the bye
-    out->socket_.set(zmq::sockopt::immediate, true);
-    out->socket_.set(zmq::sockopt::sndhwm, kQueue);
-    out->socket_.set(zmq::sockopt::rcvhwm, kQueue);
-    ::zmq_socket_monitor(out->socket_.handle(), kMonitor, ZMQ_EVENT_DISCONNECTED);
-    out->monitor_.set(zmq::sockopt::linger, 0);
-    out->monitor_.connect(kMonitor);
-    out->socket_.connect(endpoint);
+    out->sockets_->data.set(zmq::sockopt::linger, 500);  // ms, for the bye
+    out->sockets_->data.set(zmq::sockopt::immediate, true);
+    out->sockets_->data.set(zmq::sockopt::sndhwm, kQueue);
+    out->sockets_->data.set(zmq::sockopt::rcvhwm, kQueue);
+    ::zmq_socket_monitor(out->sockets_->data.handle(), kMonitor, ZMQ_EVENT_DISCONNECTED);
+    out->sockets_->monitor.set(zmq::sockopt::linger, 0);
+    out->sockets_->monitor.connect(kMonitor);
+    out->sockets_->data.connect(endpoint);
   } catch (const zmq::error_t& e) {
     return makeError(ErrorCode::InvalidInput, "cannot use address {}: {}", endpoint, e.what());
   }
@@ -48,7 +59,7 @@ bool WorldSocket::send(const v1::device::ToWorld& message) {
   zmq::message_t body(message.ByteSizeLong());
   message.SerializeWithCachedSizesToArray(body.data<std::uint8_t>());
   try {
-    return socket_.send(body, zmq::send_flags::dontwait).has_value();
+    return sockets_->data.send(body, zmq::send_flags::dontwait).has_value();
   } catch (const zmq::error_t&) {
     return false;  // interrupted or closing: the caller tries again or reports the loss
   }
@@ -57,16 +68,16 @@ bool WorldSocket::send(const v1::device::ToWorld& message) {
 std::optional<v1::device::ToRobot> WorldSocket::receive(std::chrono::milliseconds wait) {
   zmq::message_t body;
   try {
-    if (!socket_.recv(body, zmq::recv_flags::dontwait)) {
-      zmq::pollitem_t items[] = {{socket_.handle(), 0, ZMQ_POLLIN, 0},
-                                 {monitor_.handle(), 0, ZMQ_POLLIN, 0},
+    if (!sockets_->data.recv(body, zmq::recv_flags::dontwait)) {
+      zmq::pollitem_t items[] = {{sockets_->data.handle(), 0, ZMQ_POLLIN, 0},
+                                 {sockets_->monitor.handle(), 0, ZMQ_POLLIN, 0},
                                  {nullptr, wake_fd_, ZMQ_POLLIN, 0}};
       zmq::poll(items, wake_fd_ >= 0 ? 3 : 2, wait);
       if (wake_fd_ >= 0 && (items[2].revents & ZMQ_POLLIN) != 0) {
         std::uint64_t count = 0;
         (void)!::read(wake_fd_, &count, sizeof(count));
       }
-      if (!socket_.recv(body, zmq::recv_flags::dontwait)) return std::nullopt;
+      if (!sockets_->data.recv(body, zmq::recv_flags::dontwait)) return std::nullopt;
     }
   } catch (const zmq::error_t&) {
     return std::nullopt;  // a signal came in between
@@ -79,8 +90,8 @@ std::optional<v1::device::ToRobot> WorldSocket::receive(std::chrono::millisecond
 bool WorldSocket::lost() {
   zmq::message_t event, address;
   bool closed = false;
-  while (monitor_.recv(event, zmq::recv_flags::dontwait)) {
-    (void)monitor_.recv(address, zmq::recv_flags::none);
+  while (sockets_->monitor.recv(event, zmq::recv_flags::dontwait)) {
+    (void)sockets_->monitor.recv(address, zmq::recv_flags::none);
     closed = true;
   }
   return closed;

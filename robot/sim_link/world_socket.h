@@ -1,8 +1,9 @@
 #pragma once
 
 #include <chrono>
-
-#include <zmq.hpp>
+#include <memory>
+#include <optional>
+#include <string>
 
 #include "common/core/error.h"
 #include "kiln/v1/device.pb.h"
@@ -15,6 +16,7 @@ class WorldSocket {
  public:
   /// @param wake_fd becomes readable when wait() is to return early; -1: none.
   static Result<std::unique_ptr<WorldSocket>> open(const std::string& endpoint, int wake_fd);
+  ~WorldSocket();
 
   /// Never blocks. @return false when the world is not there to take it.
   bool send(const v1::device::ToWorld& message);
@@ -28,10 +30,9 @@ class WorldSocket {
                                                      double timeout_s);
 
  private:
-  explicit WorldSocket(int wake_fd) : wake_fd_(wake_fd) {}
-  zmq::context_t context_{1};
-  zmq::socket_t socket_{context_, zmq::socket_type::dealer};
-  zmq::socket_t monitor_{context_, zmq::socket_type::pair};
+  struct Sockets;
+  explicit WorldSocket(int wake_fd);
+  std::unique_ptr<Sockets> sockets_;
   std::string endpoint_;
   int wake_fd_;
 };
