@@ -7,7 +7,7 @@
 
 namespace kiln::gui {
 namespace {
-constexpr int kHeight_px = 42, kPad_px = 9;
+constexpr int kHeight_px = 41, kPad_px = 9;
 }
 
 MacroRow::MacroRow(const Ui& ui, MacroInfo macro, QWidget* parent)
@@ -59,7 +59,7 @@ void MacroRow::paintEvent(QPaintEvent*) {
   if (running) {
     painter.save();
     painter.setClipPath(outline);
-    painter.fillRect(QRectF(frame.left(), frame.bottom() - 5, frame.width() * progress_, 5),
+    painter.fillRect(QRectF(frame.left(), frame.bottom() - 4, frame.width() * progress_, 4),
                      p.manual);
     painter.restore();
   }
@@ -68,7 +68,7 @@ void MacroRow::paintEvent(QPaintEvent*) {
                                              : p.grid,
                       isEngaged() ? 2.0 : 1.2));
   painter.drawPath(outline);
-  const QRectF text = frame.adjusted(kPad_px, 4, -kPad_px, -5);
+  const QRectF text = frame.adjusted(kPad_px, 2, -kPad_px, -4);
   const QFont strong = ui().theme.font(TextRole::Body), small = ui().theme.font(TextRole::Small);
   painter.setFont(small);
   const QString hint = isEngaged() ? tr("release to cancel") : hint_;

@@ -12,7 +12,7 @@
 namespace kiln::gui {
 namespace {
 
-constexpr int kPumpWidth_px = 124;
+constexpr int kPumpWidth_px = 124, kPumpHeight_px = 120;
 
 bool sameMacros(const std::vector<MacroRow*>& rows, const std::vector<MacroInfo>& macros) {
   return std::equal(rows.begin(), rows.end(), macros.begin(), macros.end(),
@@ -77,10 +77,10 @@ QWidget* MacrosTile::makePump() {
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(4);
   pump_ = new HoldButton(ui_, tr("PUMP"), 0.0);
-  pump_->setKind(ActKind::Danger);
   pump_->setFocusPolicy(
       Qt::TabFocus);  // a click leaves the keyboard with the jog keys: spray while aiming
   pump_->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Expanding);
+  pump_->setMaximumHeight(kPumpHeight_px);
   connect(pump_, &HoldButton::engaged, this, &MacrosTile::beginPump);
   connect(pump_, &HoldButton::disengaged, this, &MacrosTile::endPump);
   sides_ = new QButtonGroup(this);
@@ -103,6 +103,7 @@ QWidget* MacrosTile::makePump() {
   });
   column->addWidget(pump_, 1);
   column->addLayout(row);
+  column->addStretch(0);
   return box;
 }
 
@@ -144,7 +145,9 @@ void MacrosTile::rebuildRows() {
 
 void MacrosTile::refreshMacros() {
   if (!sameMacros(rows_, models_.macros.macros())) rebuildRows();
-  const MacroStatus& running = models_.macros.running();
+  // What a silent robot was doing is not known any more.
+  const bool heard = models_.status.ageLevel() != AgeLevel::Red;
+  const MacroStatus running = heard ? models_.macros.running() : MacroStatus{};
   const QString why = hold_.lock(HoldKind::Macro);
   for (MacroRow* row : rows_) {
     row->setStatus(running);
@@ -163,6 +166,7 @@ void MacrosTile::refreshMacros() {
 void MacrosTile::refreshPump() {
   const RobotStatus* status = models_.status.status();
   const QString why = hold_.lock(HoldKind::Pump);
+  pump_->setKind(pump_->isEngaged() ? ActKind::Manual : ActKind::Normal);
   pump_->setEnabled(why.isEmpty());
   pump_->setToolTip(
       why.isEmpty()

@@ -5,7 +5,7 @@
 
 namespace kiln::gui {
 namespace {
-constexpr int kRow_px = 18, kName_px = 46, kBarHeight_px = 8, kFigure_px = 128;
+constexpr int kRow_px = 16, kName_px = 46, kBarHeight_px = 8, kFigure_px = 128;
 }
 
 WaterGauge::WaterGauge(const Ui& ui, Config config, QWidget* parent)

@@ -1,6 +1,7 @@
 #include "gui/views/scene3d/scene_labels.h"
 
 #include <QPainter>
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Eigenvalues>
@@ -12,7 +13,8 @@ namespace kiln::gui {
 namespace {
 
 constexpr double kZeroCelsius_k = 273.15;
-constexpr int kPadding = 7, kOffset = 16;
+constexpr int kPadding = 7, kOffset = 26;
+constexpr double kRing_px = 9.0;
 
 QColor qt(Rgb c, int alpha = 255) { return {c.r, c.g, c.b, alpha}; }
 
@@ -27,6 +29,17 @@ QFont scaled(const QFont& base, double factor, bool bold) {
   font.setPointSizeF(std::max(8.0, base.pointSizeF() * factor));
   font.setBold(bold);
   return font;
+}
+
+/// A ring round the estimate: it would otherwise hide in the box behind whose opening it burns.
+void paintTarget(QPainter& painter, const QPointF& at, const SceneColors& colors,
+                 Freshness freshness) {
+  const QColor color = qt(agedColor(colors.fire, freshness, colors));
+  painter.setBrush(Qt::NoBrush);
+  painter.setPen(QPen(color, 2.0));
+  painter.drawEllipse(at, kRing_px, kRing_px);
+  for (const QPointF& d : {QPointF(1, 0), QPointF(-1, 0), QPointF(0, 1), QPointF(0, -1)})
+    painter.drawLine(at + kRing_px * d, at + (kRing_px + 5.0) * d);
 }
 
 /// A small card with a leader line to its anchor.
@@ -63,6 +76,11 @@ void paintPlaceNames(QPainter& painter, const SceneSnapshot& snapshot, const Orb
                      const SceneColors& colors, const QSize& size) {
   painter.setPen(qt(colors.text_dim));
   for (const FirePlaceInfo& place : snapshot.places) {
+    const bool named_by_fire =
+        snapshot.layer(SceneLayer::Fire).visible &&
+        std::any_of(snapshot.fires.begin(), snapshot.fires.end(),
+                    [&](const FireEstimate& fire) { return fire.place == place.name; });
+    if (named_by_fire) continue;
     const auto p =
         camera.project(place.p_map + Eigen::Vector3d(0, 0, 0.3), size.width(), size.height());
     if (!p) continue;
@@ -127,7 +145,9 @@ void paintSceneLabels(QPainter& painter, const SceneSnapshot& snapshot, const Or
       if (!fire.p_map.allFinite()) continue;
       const auto p = camera.project(fire.p_map, size.width(), size.height());
       painter.setFont(base);
-      if (p) paintCard(painter, {p->x(), p->y()}, fireLabel(fire), colors, size);
+      if (!p) continue;
+      paintTarget(painter, {p->x(), p->y()}, colors, snapshot.layer(SceneLayer::Fire).freshness);
+      paintCard(painter, {p->x(), p->y()}, fireLabel(fire), colors, size);
     }
   }
   painter.setFont(base);

@@ -20,7 +20,7 @@ JogPanel::JogPanel(const Ui& ui, HoldToRun& hold, QWidget* parent)
       turn_(new JogPad(ui, JogPad::Axes::Horizontal)),
       arm_(new JogPad(ui, JogPad::Axes::Both)),
       up_(new JogPad(ui, JogPad::Axes::Vertical)),
-      drive_caption_(new QLabel(tr("drive  W A S D · turn Q E"))),
+      drive_caption_(new QLabel(tr("W A S D · Q E"))),
       arm_caption_(new QLabel),
       modes_(new QButtonGroup(this)) {
   setFocusPolicy(Qt::StrongFocus);
@@ -50,7 +50,7 @@ JogPanel::JogPanel(const Ui& ui, HoldToRun& hold, QWidget* parent)
 
 void JogPanel::build() {
   auto* grid = new QGridLayout(this);
-  grid->setContentsMargins(4, 2, 4, 2);
+  grid->setContentsMargins(5, 3, 5, 1);
   grid->setHorizontalSpacing(8);
   grid->setVerticalSpacing(4);
   grid->addWidget(drive_, 0, 0, Qt::AlignCenter);
@@ -60,7 +60,7 @@ void JogPanel::build() {
   grid->addWidget(buildArmModes(), 1, 2, 1, 2, Qt::AlignCenter);
   grid->addWidget(drive_caption_, 2, 0, Qt::AlignCenter);
   grid->addWidget(arm_caption_, 2, 2, 1, 2, Qt::AlignCenter);
-  grid->setColumnStretch(1, 1);
+  grid->setColumnMinimumWidth(1, 2);
 }
 
 QWidget* JogPanel::buildArmModes() {
@@ -102,7 +102,7 @@ void JogPanel::setArmMode(ArmJogMode mode, int joint) {
   up_->setEnds({}, {}, mode == ArmJogMode::Turn ? QStringLiteral("↻") : QStringLiteral("up"),
                mode == ArmJogMode::Turn ? QStringLiteral("↺") : QStringLiteral("dn"));
   arm_caption_->setText(joints ? tr("arm joint %1").arg(joint + 1)
-                               : tr("arm  arrows · PgUp PgDn · ⇧ turns"));
+                               : tr("arrows · PgUp PgDn · ⇧ turns"));
   restyle();
 }
 

@@ -22,12 +22,11 @@ TeleopTile::TeleopTile(const Ui& ui, HoldToRun& hold, QWidget* parent)
       models_(hold.models()),
       panel_(new JogPanel(ui, hold)) {
   auto* content = new QWidget;
-  auto* column = new QVBoxLayout(content);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(5);
-  column->addWidget(makeTop());
-  column->addWidget(panel_, 1);
-  column->addWidget(makeSpeed());
+  auto* row = new QHBoxLayout(content);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->setSpacing(10);
+  row->addWidget(panel_);
+  row->addWidget(makeSide(), 1);
   setContent(content);
   new DeadMan(hold_, *panel_);
   connect(enter_, &QAbstractButton::clicked, this, &TeleopTile::enterTeleop);
@@ -51,11 +50,11 @@ TeleopTile::TeleopTile(const Ui& ui, HoldToRun& hold, QWidget* parent)
   refresh();
 }
 
-QWidget* TeleopTile::makeTop() {
-  auto* top = new QWidget;
-  auto* row = new QHBoxLayout(top);
-  row->setContentsMargins(0, 0, 0, 0);
-  row->setSpacing(9);
+QWidget* TeleopTile::makeSide() {
+  auto* side = new QWidget;
+  auto* column = new QVBoxLayout(side);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(5);
   enter_ = new ActButton(ui_, tr("Enter Teleop"));
   enter_->setKind(ActKind::Manual);
   enter_->setSubtext(tr("mission pauses, robot holds"));
@@ -63,31 +62,24 @@ QWidget* TeleopTile::makeTop() {
   leave_->setSubtext(tr("hold 1 s · mission stays paused"));
   state_ = new QLabel;
   state_->setWordWrap(true);
-  row->addWidget(enter_);
-  row->addWidget(leave_);
-  row->addWidget(state_, 1);
-  return top;
-}
-
-QWidget* TeleopTile::makeSpeed() {
-  auto* bar = new QWidget;
-  auto* row = new QHBoxLayout(bar);
-  row->setContentsMargins(0, 0, 0, 0);
-  auto* caption = new QLabel(tr("Speed"));
-  caption->setObjectName(QStringLiteral("caption"));
+  state_->setAlignment(Qt::AlignTop | Qt::AlignLeft);
+  column->addWidget(enter_);
+  column->addWidget(leave_);
+  column->addWidget(state_, 1);
+  auto* row = new QHBoxLayout;
+  speed_caption_ = new QLabel(tr("Speed"));
+  speed_text_ = new QLabel(tr("%1 %").arg(kDefault_pct));
+  row->addWidget(speed_caption_, 1);
+  row->addWidget(speed_text_);
+  column->addLayout(row);
   speed_ = new QSlider(Qt::Horizontal);
   speed_->setRange(kSlowest_pct, 100);
   speed_->setValue(kDefault_pct);
   speed_->setPageStep(5);
   speed_->setFocusPolicy(Qt::NoFocus);  // arrows belong to the arm
   speed_->setToolTip(tr("share of the teleop speed at full stick; the robot applies it"));
-  speed_text_ = new QLabel(tr("%1 %").arg(kDefault_pct));
-  speed_text_->setMinimumWidth(44);
-  speed_text_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
-  row->addWidget(caption);
-  row->addWidget(speed_, 1);
-  row->addWidget(speed_text_);
-  return bar;
+  column->addWidget(speed_);
+  return side;
 }
 
 QString TeleopTile::lockReason() const { return hold_.lock(HoldKind::Base); }
@@ -152,10 +144,8 @@ void TeleopTile::restyle() {
   const Palette& p = ui_.theme.colors();
   state_->setFont(ui_.theme.font(TextRole::Small));
   speed_text_->setFont(ui_.theme.font(TextRole::Strong));
-  if (auto* caption = findChild<QLabel*>(QStringLiteral("caption"))) {
-    caption->setFont(ui_.theme.font(TextRole::Small));
-    caption->setStyleSheet(QStringLiteral("color: %1").arg(p.dim.name()));
-  }
+  speed_caption_->setFont(ui_.theme.font(TextRole::Small));
+  speed_caption_->setStyleSheet(QStringLiteral("color: %1").arg(p.dim.name()));
   speed_->setStyleSheet(
       QStringLiteral(
           "QSlider::groove:horizontal { height: 5px; background: %1; border-radius: 2px; }"

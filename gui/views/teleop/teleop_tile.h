@@ -28,8 +28,7 @@ class TeleopTile : public Tile {
   void refreshMode();
   void sendSpeed();
   void restyle();
-  QWidget* makeTop();
-  QWidget* makeSpeed();
+  QWidget* makeSide();
 
   Ui ui_;
   HoldToRun& hold_;
@@ -37,7 +36,7 @@ class TeleopTile : public Tile {
   JogPanel* panel_;
   ActButton* enter_;
   HoldButton* leave_;
-  QLabel *state_, *speed_text_;
+  QLabel *state_, *speed_caption_, *speed_text_;
   QSlider* speed_;
   QTimer speed_timer_;
   Mode before_ = Mode::Supervised;  ///< the mode to return to

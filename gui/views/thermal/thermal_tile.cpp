@@ -8,7 +8,7 @@ namespace kiln::gui {
 namespace {
 
 constexpr double kFrozen_s = 1.0;  // longer than the camera's own shutter pause of 0.6 s
-constexpr int kColumn_px = 118;
+constexpr int kColumn_px = 112;
 
 const HeatBlob* hottestAccepted(const HeatDetections* heat) {
   if (!heat || !heat->usable) return nullptr;
@@ -101,7 +101,6 @@ QString ThermalTile::refusal() const {
 }
 
 void ThermalTile::refresh() {
-  view_->show(models_.thermal.image(), models_.thermal.heat(), refusal());
   describe();
   refreshAge();
 }
@@ -127,7 +126,9 @@ void ThermalTile::refreshAge() {
   setInfo(models_.thermal.hasData() ? tr("%1 Hz").arg(models_.thermal.rateHz(), 0, 'f', 1)
                                     : QString());
   setStaleText(tr("no new frame for %1").arg(ageText(age_s)), tr("temperatures may have changed"));
-  view_->show(models_.thermal.image(), models_.thermal.heat(), refusal());
+  // Once the tile is hatched over it speaks for itself.
+  view_->show(models_.thermal.image(), models_.thermal.heat(),
+              models_.thermal.ageLevel() == AgeLevel::Red ? QString() : refusal());
 }
 
 void ThermalTile::restyle() {

@@ -8,7 +8,7 @@
 namespace kiln::gui {
 namespace {
 
-constexpr int kBar_px = 13, kBarGap_px = 8, kBarText_px = 74;
+constexpr int kBar_px = 13, kBarGap_px = 8, kBarText_px = 84;
 constexpr std::uint64_t kSeqTolerance = 6;  // detections trail the picture by a few frames at most
 
 QRectF blobRect(const HeatBlob& blob, const QRectF& picture, double pixel) {
