@@ -1,0 +1,107 @@
+#include <QApplication>
+#include <QDir>
+#include <QSurfaceFormat>
+#include <QTimer>
+#include <cstdlib>
+#include <iostream>
+#include <memory>
+
+#include "common/config/resources.h"
+#include "gui/app/main_window.h"
+#include "gui/app/options.h"
+#include "gui/app/screenshots.h"
+#include "gui/app/stall_meter.h"
+#include "gui/link/fake_link.h"
+#include "gui/views/scene3d/scene_renderer.h"
+
+namespace kiln::gui {
+namespace {
+
+constexpr int kNoDisplay = 2;
+constexpr int kLastLook_ms = 1500;
+
+/// Qt aborts the process when no display answers; the operator gets a sentence instead.
+bool haveDisplay() {
+  const char* platform = std::getenv("QT_QPA_PLATFORM");
+  if (platform && std::string(platform) != "xcb") return true;
+  const char* x11 = std::getenv("DISPLAY");
+  const char* wayland = std::getenv("WAYLAND_DISPLAY");
+  return (x11 && *x11) || (wayland && *wayland);
+}
+
+std::unique_ptr<Link> makeLink(const StationOptions& options) {
+  FakeLink::Options fake;
+  fake.seed = options.fake.value_or(1);
+  fake.speed = options.fake_speed;
+  fake.autostart = true;
+  return std::make_unique<FakeLink>(fake);
+}
+
+int run(int argc, char** argv, const StationOptions& options) {
+  QApplication app(argc, argv);
+  QApplication::setApplicationName(QStringLiteral("kiln-station"));
+  Theme theme(options.theme);
+  theme.apply();
+  RobotGeometry geometry;
+  if (const auto path = resourcePath("robot_model/bob.yaml")) {
+    if (const auto loaded = loadConfig(*path, geometry); !loaded) {
+      std::cerr << "kiln-station: " << loaded.error().message << '\n';
+      return EXIT_FAILURE;
+    }
+  } else {
+    std::cerr << "kiln-station: " << path.error().message << '\n';
+    return EXIT_FAILURE;
+  }
+  const std::unique_ptr<Link> link = makeLink(options);
+  StationModels models(*link);
+  const SteadyClock steady;
+  MainWindow window({theme, steady}, models, {geometry, !options.flat && openGlAvailable()});
+  window.resize(options.width, options.height);
+  window.show();
+  StallMeter stalls(steady);
+  if (options.stall_report)
+    QTimer::singleShot(kLastLook_ms, &stalls, [&stalls] { stalls.start(); });
+  std::unique_ptr<Screenshots> screenshots;
+  if (!options.screenshots.empty()) {
+    const QDir folder(QString::fromStdString(options.screenshots));
+    if (!folder.mkpath(QStringLiteral("."))) {
+      std::cerr << "kiln-station: cannot create the folder " << options.screenshots
+                << "; choose one that is writable\n";
+      return EXIT_FAILURE;
+    }
+    screenshots = std::make_unique<Screenshots>(window, models, folder);
+  }
+  if (options.exit_when_done) {
+    QObject::connect(&models.fsm, &FsmModel::stateEntered, &app, [&](const QString&) {
+      if (models.fsm.status()->terminal)
+        QTimer::singleShot(kLastLook_ms, &app, &QApplication::quit);
+    });
+  }
+  if (options.take_lease) {
+    QObject::connect(&models.status, &Model::changed, &models.lease,
+                     [&models, asked = false]() mutable {
+                       if (std::exchange(asked, true)) return;
+                       models.lease.request();
+                     });
+  }
+  link->open();
+  const int code = QApplication::exec();
+  link->close();
+  if (options.stall_report) std::cout << stalls.report().toStdString() << std::endl;
+  return code;
+}
+
+}  // namespace
+}  // namespace kiln::gui
+
+int main(int argc, char** argv) {
+  kiln::gui::StationOptions options;
+  if (const auto code = kiln::gui::parseOptions(argc, argv, options)) return *code;
+  if (!kiln::gui::haveDisplay()) {
+    std::cerr << "kiln-station: there is no display (DISPLAY and WAYLAND_DISPLAY are empty); log "
+                 "in to a desktop or run "
+                 "it under a virtual one: xvfb-run -a kiln-station ...\n";
+    return kiln::gui::kNoDisplay;
+  }
+  return kiln::gui::run(argc, argv, options);
+}

@@ -1,0 +1,210 @@
+#include "gui/app/main_window.h"
+
+#include <QApplication>
+#include <QBoxLayout>
+#include <QKeyEvent>
+#include <QLineEdit>
+#include <QPainter>
+#include <algorithm>
+
+#include "gui/views/alarm_strip/alarm_strip.h"
+#include "gui/views/camera/camera_tile.h"
+#include "gui/views/fsm_graph/fsm_tile.h"
+#include "gui/views/log/log_view.h"
+#include "gui/views/macros/macros_tile.h"
+#include "gui/views/scene3d/scene_tile.h"
+#include "gui/views/state_card/state_card.h"
+#include "gui/views/teleop/teleop_tile.h"
+#include "gui/views/thermal/thermal_tile.h"
+#include "gui/views/timeline/timeline_view.h"
+#include "gui/views/top_bar/top_bar.h"
+
+namespace kiln::gui {
+
+namespace {
+constexpr int kFrame_px = 4;
+constexpr int kGap_px = 6;
+constexpr double kLeftShare = 0.262;
+constexpr double kRightShare = 0.240;
+constexpr int kLeftMin_px = 352, kLeftMax_px = 470;
+constexpr int kRightMin_px = 330, kRightMax_px = 430;
+constexpr double kImagesShare = 0.20;
+constexpr int kImagesMin_px = 168, kImagesMax_px = 300;
+constexpr double kBottomShare = 0.21;
+constexpr int kBottomMin_px = 150, kBottomMax_px = 250;
+}  // namespace
+
+MainWindow::MainWindow(const Ui& ui, StationModels& models, const Options& options)
+    : ui_(ui),
+      models_(models),
+      jump_(models),
+      hold_(models),
+      top_bar_(new TopBar(ui, models)),
+      fsm_(new FsmTile(ui, models, jump_)),
+      state_(new StateCard(ui, models, jump_)),
+      alarms_(new AlarmStrip(ui, models)) {
+  setWindowTitle(QStringLiteral("Kiln station"));
+  setMinimumSize(1280, 720);
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(kFrame_px, kFrame_px, kFrame_px, kFrame_px);
+  column->setSpacing(kGap_px);
+  column->addWidget(top_bar_);
+  column->addLayout(makeMiddle(options), 1);
+  column->addWidget(makeBottom());
+  column->addWidget(alarms_);
+  connect(alarms_, &AlarmStrip::logRequested, this, [this] { showLog(log_tile_->isHidden()); });
+  connect(&models_, &StationModels::aged, this, &MainWindow::refreshFrame);
+  connect(&models_.status, &Model::changed, this, &MainWindow::refreshFrame);
+  connect(&models_.lease, &Model::changed, this, &MainWindow::refreshFrame);
+  connect(&ui_.theme, &Theme::changed, this, qOverload<>(&QWidget::update));
+  qApp->installEventFilter(this);
+}
+
+MainWindow::~MainWindow() {
+  if (qApp) qApp->removeEventFilter(this);
+}
+
+QBoxLayout* MainWindow::makeMiddle(const Options& options) {
+  auto* middle = new QHBoxLayout;
+  middle->setSpacing(kGap_px);
+  middle->addWidget(fsm_);
+  auto* centre = new QVBoxLayout;
+  centre->setSpacing(kGap_px);
+  scene_ = new SceneTile(ui_, models_, options.geometry, options.open_gl);
+  centre->addWidget(scene_, 1);
+  images_ = new QWidget;
+  auto* images = new QHBoxLayout(images_);
+  images->setContentsMargins(0, 0, 0, 0);
+  images->setSpacing(kGap_px);
+  images->addWidget(new ThermalTile(ui_, models_), 1);
+  images->addWidget(new CameraTile(ui_, models_), 1);
+  centre->addWidget(images_);
+  middle->addLayout(centre, 1);
+  right_ = new QWidget;
+  auto* right = new QVBoxLayout(right_);
+  right->setContentsMargins(0, 0, 0, 0);
+  right->setSpacing(kGap_px);
+  right->addWidget(state_, 1);
+  right->addWidget(new TeleopTile(ui_, hold_));
+  right->addWidget(new MacrosTile(ui_, hold_));
+  middle->addWidget(right_);
+  return middle;
+}
+
+QWidget* MainWindow::makeBottom() {
+  auto* bottom = new QWidget;
+  auto* row = new QHBoxLayout(bottom);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->setSpacing(kGap_px);
+  timeline_ = new TimelineView(ui_, models_);
+  timeline_tile_ = new Tile(ui_, tr("Timeline"));
+  timeline_tile_->setContent(timeline_);
+  log_tile_ = new Tile(ui_, tr("Event log"));
+  log_tile_->setContent(new LogView(ui_, models_));
+  log_tile_->hide();
+  row->addWidget(timeline_tile_, 3);
+  row->addWidget(log_tile_, 2);
+  connect(timeline_, &TimelineView::viewChanged, this, &MainWindow::refreshTimelineTile);
+  refreshTimelineTile();
+  return bottom;
+}
+
+void MainWindow::showLog(bool shown) { log_tile_->setVisible(shown); }
+
+void MainWindow::refreshTimelineTile() {
+  timeline_tile_->setInfo(
+      (timeline_->following() ? tr("follows now") : tr("looking back, double-click to follow")) +
+      tr(" · last %1 s").arg(timeline_->spanS(), 0, 'f', 0));
+}
+
+MainWindow::Frame MainWindow::frame() const {
+  if (!models_.status.hasData()) return Frame::None;
+  const LinkState link = models_.link_state.health().state;
+  if (models_.status.ageLevel() != AgeLevel::Fresh || link == LinkState::Degraded ||
+      link == LinkState::Lost) {
+    return Frame::Degraded;
+  }
+  return models_.lease.mine() && models_.status.word() == StatusWord::Teleop ? Frame::Driving
+                                                                             : Frame::None;
+}
+
+void MainWindow::refreshFrame() {
+  if (frame() == shown_frame_) return;
+  shown_frame_ = frame();
+  update();
+}
+
+void MainWindow::paintEvent(QPaintEvent*) {
+  const Palette& p = ui_.theme.colors();
+  QPainter painter(this);
+  painter.fillRect(rect(), p.ground);
+  if (shown_frame_ == Frame::None) return;
+  painter.setPen(QPen(shown_frame_ == Frame::Driving ? p.manual : p.caution, kFrame_px));
+  painter.drawRect(QRectF(rect()).adjusted(kFrame_px / 2.0, kFrame_px / 2.0, -kFrame_px / 2.0,
+                                           -kFrame_px / 2.0));
+}
+
+void MainWindow::resizeEvent(QResizeEvent*) {
+  const auto share = [](int whole, double part, int low, int high) {
+    return std::clamp(static_cast<int>(whole * part), low, high);
+  };
+  fsm_->setFixedWidth(share(width(), kLeftShare, kLeftMin_px, kLeftMax_px));
+  right_->setFixedWidth(share(width(), kRightShare, kRightMin_px, kRightMax_px));
+  images_->setFixedHeight(share(height(), kImagesShare, kImagesMin_px, kImagesMax_px));
+  const int bottom = share(height(), kBottomShare, kBottomMin_px, kBottomMax_px);
+  timeline_tile_->setFixedHeight(bottom);
+  log_tile_->setFixedHeight(bottom);
+}
+
+bool MainWindow::eventFilter(QObject* watched, QEvent* event) {
+  // Keys are taken before any widget sees them: STOP must not depend on where the focus is.
+  if (event->type() == QEvent::KeyPress || event->type() == QEvent::ShortcutOverride) {
+    auto* widget = qobject_cast<QWidget*>(watched);
+    if (!widget || widget->window() != this) return QWidget::eventFilter(watched, event);
+    const auto* key = static_cast<QKeyEvent*>(event);
+    const bool stop = key->key() == Qt::Key_Space || key->key() == Qt::Key_Pause;
+    if (stop) {
+      if (event->type() == QEvent::KeyPress && !key->isAutoRepeat()) models_.stop.press();
+      event->accept();
+      return true;
+    }
+    const bool typing = qobject_cast<QLineEdit*>(QApplication::focusWidget()) != nullptr;
+    const bool plain = (key->modifiers() & ~Qt::KeypadModifier) == Qt::NoModifier;
+    if (event->type() == QEvent::KeyPress && plain && !key->isAutoRepeat() &&
+        handleKey(key->key(), typing))
+      return true;
+  }
+  return QWidget::eventFilter(watched, event);
+}
+
+bool MainWindow::handleKey(int key, bool typing) {
+  if (key == Qt::Key_Escape) {
+    jump_.cancel();
+    fsm_->endSearch();
+    return true;
+  }
+  if (key == Qt::Key_F11) {
+    setWindowState(windowState() ^ Qt::WindowFullScreen);
+    return true;
+  }
+  if (key == Qt::Key_F1) {
+    scene_->toggleLayerPanel();
+    return true;
+  }
+  if (typing) return false;
+  if (key == Qt::Key_Slash) {
+    fsm_->beginSearch();
+    return true;
+  }
+  if (key == Qt::Key_T) {
+    ui_.theme.toggle();
+    return true;
+  }
+  if (key == Qt::Key_L) {
+    showLog(log_tile_->isHidden());
+    return true;
+  }
+  return false;
+}
+
+}  // namespace kiln::gui

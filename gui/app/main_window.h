@@ -1,0 +1,73 @@
+#pragma once
+
+#include <QWidget>
+
+#include "common/robot_model/robot_geometry.h"
+#include "gui/models/forced_jump.h"
+#include "gui/models/station_models.h"
+#include "gui/views/teleop/hold_to_run.h"
+#include "gui/widgets/tile.h"
+
+class QBoxLayout;
+class QStackedLayout;
+
+namespace kiln::gui {
+
+class AlarmStrip;
+class FsmTile;
+class MacrosTile;
+class SceneTile;
+class StateCard;
+class TeleopTile;
+class TimelineView;
+class TopBar;
+
+/// The station's one window: where the tiles stand, the frame that tells who drives, and the keys.
+/// Nothing else.
+class MainWindow : public QWidget {
+  Q_OBJECT
+ public:
+  struct Options {
+    RobotGeometry geometry;
+    bool open_gl = true;
+  };
+  MainWindow(const Ui& ui, StationModels& models, const Options& options);
+  ~MainWindow() override;
+  [[nodiscard]] TopBar* topBar() const { return top_bar_; }
+  [[nodiscard]] FsmTile* fsmTile() const { return fsm_; }
+  [[nodiscard]] StateCard* stateCard() const { return state_; }
+  [[nodiscard]] AlarmStrip* alarmStrip() const { return alarms_; }
+  [[nodiscard]] ForcedJump& jump() { return jump_; }
+  void showLog(bool shown);
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
+ private:
+  enum class Frame { None, Driving, Degraded };
+  [[nodiscard]] Frame frame() const;
+  QBoxLayout* makeMiddle(const Options& options);
+  QWidget* makeBottom();
+  void refreshFrame();
+  void refreshTimelineTile();
+  bool handleKey(int key, bool typing);
+  Ui ui_;
+  StationModels& models_;
+  ForcedJump jump_;
+  HoldToRun hold_;
+  TopBar* top_bar_;
+  FsmTile* fsm_;
+  StateCard* state_;
+  SceneTile* scene_ = nullptr;
+  QWidget* images_ = nullptr;
+  QWidget* right_ = nullptr;
+  Tile* timeline_tile_ = nullptr;
+  TimelineView* timeline_ = nullptr;
+  Tile* log_tile_ = nullptr;
+  AlarmStrip* alarms_;
+  Frame shown_frame_ = Frame::None;
+};
+
+}  // namespace kiln::gui

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "gui/widgets/theme.h"
+
+namespace kiln::gui {
+
+/// The command line of kiln-station.
+struct StationOptions {
+  std::string endpoint = "tcp://127.0.0.1:7300";
+  std::string operator_name = "operator";
+  ThemeKind theme = ThemeKind::Dark;
+  std::string screenshots;            ///< folder; empty = none
+  std::optional<std::uint64_t> fake;  ///< seed
+  double fake_speed = 1.0;
+  int width = 1680, height = 1020;
+  bool exit_when_done = false;
+  bool stall_report = false;
+  bool take_lease = false;
+  bool flat = false;  ///< top view instead of 3D
+};
+
+/// Parses argv without touching a display. @return nullopt to go on, else the exit code (help and
+/// version 0, bad use 2).
+[[nodiscard]] std::optional<int> parseOptions(int argc, char** argv, StationOptions& options);
+
+}  // namespace kiln::gui
