@@ -21,7 +21,7 @@ struct SegmenterLimits {
   double background_k = 0.0;
   double floor_k = 0.0;     ///< pixels cooler than this belong to nothing
   double min_peak_k = 0.0;  ///< cooler hills are dropped
-  double min_prominence_k = 0.8;
+  double min_prominence_k = 0.4;
 };
 
 /// Watershed from the warmest pixel downwards, 8-connected. Two hills that meet stay apart if the
