@@ -78,7 +78,7 @@ TEST(SelfFilter, PlacesTheArmWhereItWasAtEachPoint) {
   arm.push(at(0), q0);
   arm.push(at(0.1), q1);
   // The deck, seen by the moving head at the end of the scan; the head was elsewhere at its start.
-  const Eigen::Vector3d deck(0.0, 0.3, 0.60);
+  const Eigen::Vector3d deck(-0.5, 0.6, 0.60);
   PointCloud scan = fromBase(geometry, q1, {deck}, 0.1f);
   scan.push(50, 0, 0, 1, 1, 0.0f);  // far away, at the start
   const SelfFilter filter(geometry, {.margin_m = 0.03, .slices = 50});
