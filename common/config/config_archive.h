@@ -33,6 +33,12 @@ class ConfigArchive {
                      const char* doc) = 0;
   virtual void field(const char* name, bool& value, const char* doc) = 0;
   virtual void field(const char* name, std::string& value, const char* doc) = 0;
+  /// A text that must be one of a few words.
+  virtual void choice(const char* name, std::string& value, const std::vector<std::string>& allowed,
+                      const char* doc) {
+    static_cast<void>(allowed);
+    field(name, value, doc);
+  }
   /// Fixed length: the YAML list must have exactly value.size() entries when size > 0 and `fixed`.
   virtual void field(const char* name, std::vector<double>& value, const char* unit, double min,
                      double max, const char* doc, bool fixed = true) = 0;

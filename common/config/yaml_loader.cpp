@@ -5,6 +5,7 @@
 #include <optional>
 #include <sstream>
 
+#include <fmt/ranges.h>
 #include <yaml-cpp/yaml.h>
 
 #include "common/config/config_archive.h"
@@ -46,6 +47,16 @@ class YamlLoader final : public ConfigArchive {
     if (!node) return;
     if (!node->IsScalar()) return fail(*node, fmt::format("'{}' must be a text", name));
     value = node->Scalar();
+  }
+  void choice(const char* name, std::string& value, const std::vector<std::string>& allowed,
+              const char* doc) override {
+    field(name, value, doc);
+    const YAML::Node node = map_[name];
+    if (!node.IsDefined() || !error_.empty()) return;
+    if (std::find(allowed.begin(), allowed.end(), value) != allowed.end()) return;
+    const std::string near = nearestName(value, allowed);
+    fail(node, fmt::format("'{}' is '{}'; allowed: {}{}", name, value, fmt::join(allowed, ", "),
+                           near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
   }
   void field(const char* name, std::vector<double>& value, const char* unit, double min, double max,
              const char*, bool fixed) override {
