@@ -91,7 +91,7 @@ void ColourCamera::Impl::castSamples(std::vector<Sample>& samples) {
     sun.origin = rays[i].origin + hits[i].range * rays[i].direction + 0.003F * hits[i].normal;
     sun.direction = light.to_sun;
     sun.max_range = hits[i].valid() && hits[i].normal.dot(light.to_sun) > 0.0F ? 60.0F : 0.0F;
-    sun.mask = mask::kSolid | mask::kRobot;
+    sun.mask = mask::kSolid | mask::kRobot | mask::kGripper;
     sun_rays.push_back(sun);
   }
   shadows.assign(rays.size(), 0);

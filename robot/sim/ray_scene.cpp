@@ -109,14 +109,14 @@ void RayScene::addCapsule(int link, const Eigen::Vector3d& from, const Eigen::Ve
 }
 
 void RayScene::addRobot(const TrueArena& arena) {
-  const auto box = [&](const BoxConfig& part, int link, Material m) {
+  const auto box = [&](const BoxConfig& part, int link, Material m, std::uint32_t bits) {
     const Eigen::Vector3d size(part.size_m[0], part.size_m[1], part.size_m[2]);
     const Eigen::Isometry3d X = part.center.pose();
-    moving_.push_back(
-        {note(rays_.addBox(size, X, number(m), mask::kRobot), fire_.ambient_c), link, X});
+    moving_.push_back({note(rays_.addBox(size, X, number(m), bits), fire_.ambient_c), link, X});
   };
-  for (const BoxConfig& part : robot_.body)
-    box(part, 0, part.name.starts_with("tank") ? Material::Tank : Material::Chassis);
+  for (const BoxConfig& part : robot_.body) {
+    box(part, 0, part.name.starts_with("tank") ? Material::Tank : Material::Chassis, mask::kRobot);
+  }
   const UrKinematics& k = robot_.arm;
   for (std::size_t i = 0; i < 6; ++i) {
     // The link from frame i to frame i + 1, seen from frame i + 1 (its end).
@@ -131,7 +131,9 @@ void RayScene::addRobot(const TrueArena& arena) {
       addCapsule(static_cast<int>(i) + 1, start + beside, beside, 0.012, Material::Hose);
     }
   }
-  for (const BoxConfig& part : robot_.head) box(part, 6, Material::Head);
+  for (const BoxConfig& part : robot_.head) {
+    box(part, 6, Material::Head, part.name == "lidar" ? mask::kLidarHousing : mask::kGripper);
+  }
   const Eigen::Vector3d tip = arena.robot.X_flange_nozzle.translation();
   addCapsule(6, tip - 0.10 * arena.robot.X_flange_nozzle.linear().col(0),
              tip - Eigen::Vector3d(0, 0, 0.01), 0.01, Material::Hose);
