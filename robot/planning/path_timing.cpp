@@ -6,8 +6,16 @@
 namespace kiln {
 namespace {
 
+// The averaging window carries speed into a narrow slow place; where the limit is low, acceleration
+// is kept low too, so that no more than about a quarter of the limit is carried in.
+constexpr double kCarriedSpeed = 0.5;
+
 /// Fastest v(s), zero at both ends.
-std::vector<double> speedProfile(const std::vector<PathTiming::Sample>& samples) {
+std::vector<double> speedProfile(std::vector<PathTiming::Sample> samples, double window_s) {
+  for (PathTiming::Sample& sample : samples) {
+    sample.max_accel =
+        std::min(sample.max_accel, kCarriedSpeed * sample.max_speed / std::max(window_s, 1e-3));
+  }
   const std::size_t n = samples.size();
   std::vector<double> v(n);
   for (std::size_t k = 0; k < n; ++k) v[k] = samples[k].max_speed;
@@ -26,7 +34,7 @@ std::vector<double> speedProfile(const std::vector<PathTiming::Sample>& samples)
 
 PathTiming::PathTiming(const std::vector<Sample>& samples, double jerk_time_s)
     : length_(samples.back().s) {
-  const std::vector<double> v = speedProfile(samples);
+  const std::vector<double> v = speedProfile(samples, jerk_time_s);
   Knot knot;
   knot.s = samples.front().s;
   for (std::size_t k = 1; k < samples.size(); ++k) {

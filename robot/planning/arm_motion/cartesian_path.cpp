@@ -13,11 +13,18 @@ struct PosePath {
   std::vector<Eigen::Isometry3d> X;
 };
 
+constexpr double kNoWay = 1e-4;  // m; shorter lines are no lines
+
+double wayBetween(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to,
+                  const CartesianPathConfig& config) {
+  return std::max((to.translation() - from.translation()).norm(),
+                  rotationAngle(from.inverse() * to) * config.rotation_weight_m);
+}
+
 void appendLine(PosePath& path, const Eigen::Isometry3d& to, const CartesianPathConfig& config) {
   const Eigen::Isometry3d from = path.X.back();
-  const double turn = rotationAngle(from.inverse() * to);
-  const double length =
-      std::max((to.translation() - from.translation()).norm(), turn * config.rotation_weight_m);
+  const double length = wayBetween(from, to, config);
+  if (length < kNoWay) return;
   const int steps = std::max(2, static_cast<int>(std::ceil(length / config.step_m)));
   const double start = path.s.back();
   for (int k = 1; k <= steps; ++k) {
@@ -52,6 +59,9 @@ PosePath rounded(const PosePath& path, const CartesianPathConfig& config) {
     const std::ptrdiff_t w = std::min({half, k, last - k});
     out.X[static_cast<std::size_t>(k)] =
         meanPose(path, static_cast<std::size_t>(k - w), static_cast<std::size_t>(k + w));
+  }
+  for (std::size_t k = 1; k < out.X.size(); ++k) {
+    out.s[k] = out.s[k - 1] + wayBetween(out.X[k - 1], out.X[k], config);
   }
   return out;
 }
@@ -122,11 +132,13 @@ Result<std::vector<JointPath>> cartesianPaths(
   std::vector<JointPath> out;
   Vector6d q = q_start;
   for (const PosePath& poses : lines) {
+    if (poses.X.size() < 2) continue;  // already there
     auto path = toJoints(robot, collision, config, q, poses);
     if (!path) return tl::make_unexpected(path.error());
     q = path->q.back();
     out.push_back(std::move(*path));
   }
+  if (out.empty()) out.push_back(straightJointPath(q_start, q_start));
   return out;
 }
 

@@ -11,6 +11,7 @@ namespace {
 constexpr double kFootprintBottom = 0.05,
                  kFootprintTop = 1.6;   // m; lintels above and the ground do not count
 constexpr double kCheckSpacing = 0.05;  // m
+constexpr double kNoWay = 1e-3;         // m; shorter lines are no lines
 
 }  // namespace
 
@@ -31,17 +32,22 @@ BasePath::BasePath(const Pose2& X_map_start, const std::vector<Pose2>& waypoints
     : s_{0.0}, poses_{X_map_start} {
   for (const Pose2& waypoint : waypoints_map) {
     appendLine(waypoint, config);
-    waypoint_s_.push_back(s_.back());
+    waypoint_sample_.push_back(poses_.size() - 1);
   }
   roundCorners(config);
   timing_ = PathTiming(limits(config), config.jerk_time_s);
 }
 
+double BasePath::wayBetween(const Pose2& from, const Pose2& to, const BasePathConfig& config) {
+  return std::max(std::hypot(to.x_m - from.x_m, to.y_m - from.y_m),
+                  std::abs(to.yaw_rad - from.yaw_rad) * config.turn_weight_m);
+}
+
 void BasePath::appendLine(const Pose2& to, const BasePathConfig& config) {
   const Pose2 from = poses_.back();
   const double turn = wrapAngle(to.yaw_rad - from.yaw_rad);
-  const double length = std::max(std::hypot(to.x_m - from.x_m, to.y_m - from.y_m),
-                                 std::abs(turn) * config.turn_weight_m);
+  const double length = wayBetween(from, {to.x_m, to.y_m, from.yaw_rad + turn}, config);
+  if (length < kNoWay && poses_.size() > 1) return;
   const int steps = std::max(2, static_cast<int>(std::ceil(length / config.step_m)));
   const double start = s_.back();
   for (int k = 1; k <= steps; ++k) {
@@ -69,6 +75,9 @@ void BasePath::roundCorners(const BasePathConfig& config) {
     }
     const double n = static_cast<double>(2 * w + 1);
     poses_[static_cast<std::size_t>(k)] = {mean.x_m / n, mean.y_m / n, mean.yaw_rad / n};
+  }
+  for (std::size_t k = 1; k < poses_.size(); ++k) {
+    s_[k] = s_[k - 1] + wayBetween(poses_[k - 1], poses_[k], config);
   }
 }
 
@@ -119,9 +128,12 @@ BasePath::Point BasePath::at(double t_s) const {
 }
 
 int BasePath::nextWaypoint(double s) const {
-  const auto next = std::upper_bound(waypoint_s_.begin(), waypoint_s_.end(), s);
-  return static_cast<int>(std::min<std::ptrdiff_t>(
-      next - waypoint_s_.begin(), static_cast<std::ptrdiff_t>(waypoint_s_.size()) - 1));
+  int next = 0;
+  while (next + 1 < static_cast<int>(waypoint_sample_.size()) &&
+         s_[waypoint_sample_[static_cast<std::size_t>(next)]] <= s) {
+    ++next;
+  }
+  return next;
 }
 
 std::optional<std::string> firstObstacle(const BasePath& path, double length_m, double width_m,

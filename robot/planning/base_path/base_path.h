@@ -44,6 +44,7 @@ class BasePath {
   [[nodiscard]] const std::vector<Pose2>& samples() const { return poses_; }
 
  private:
+  static double wayBetween(const Pose2& from, const Pose2& to, const BasePathConfig& config);
   void appendLine(const Pose2& to, const BasePathConfig& config);
   void roundCorners(const BasePathConfig& config);
   [[nodiscard]] std::vector<PathTiming::Sample> limits(const BasePathConfig& config) const;
@@ -51,7 +52,7 @@ class BasePath {
 
   std::vector<double> s_;
   std::vector<Pose2> poses_;  ///< yaw unwrapped
-  std::vector<double> waypoint_s_;
+  std::vector<std::size_t> waypoint_sample_;
   PathTiming timing_;
 };
 

@@ -1,0 +1,125 @@
+#include "robot/planning/arm_motion/arm_collision.h"
+
+#include <cmath>
+#include <random>
+
+#include "tests/unit/robot/planning/arm_motion/bob.h"
+
+namespace kiln {
+namespace {
+
+TEST(NamedPoses, KeepThreeCentimetresAndCarryTheLidarUpright) {
+  const RobotGeometry robot = loadBob();
+  const ArmCollision collision(robot);
+  for (const auto& q_deg : {robot.q_drive_deg, robot.q_park_deg}) {
+    const Vector6d q = RobotGeometry::radians(q_deg);
+    const Clearance room = collision.clearance(q);
+    EXPECT_GE(room.distance_m, 0.03) << room.what;
+    const Eigen::Matrix3d R = robot.X_base_flange(q).linear();
+    EXPECT_GT(-R(2, 1), 0.999) << "flange -Y up";
+    EXPECT_GT(R(0, 2), 0.98) << "flange Z forward";
+  }
+  EXPECT_TRUE(collision.pathIsFree(RobotGeometry::radians(robot.q_drive_deg),
+                                   RobotGeometry::radians(robot.q_park_deg), 0.03));
+}
+
+TEST(NamedPoses, ParkKeepsArmAndHeadWithinTheFootprint) {
+  const RobotGeometry robot = loadBob();
+  const Vector6d q = RobotGeometry::radians(robot.q_park_deg);
+  const Eigen::Isometry3d X_base_flange = robot.X_base_flange(q);
+  for (const BoxConfig& box : robot.head) {
+    for (int corner = 0; corner < 8; ++corner) {
+      const Eigen::Vector3d p((corner & 1 ? 0.5 : -0.5) * box.size_m[0],
+                              (corner & 2 ? 0.5 : -0.5) * box.size_m[1],
+                              (corner & 4 ? 0.5 : -0.5) * box.size_m[2]);
+      const Eigen::Vector3d p_base = X_base_flange * box.center.pose() * p;
+      EXPECT_LE(std::abs(p_base.x()), 0.5 * robot.length_m) << box.name;
+      EXPECT_LE(std::abs(p_base.y()), 0.5 * robot.width_m) << box.name;
+    }
+  }
+}
+
+TEST(ArmCollision, SeesDeckTanksGroundAndItself) {
+  const RobotGeometry robot = loadBob();
+  const ArmCollision collision(robot);
+  const auto at = [&](std::vector<double> q_deg) {
+    return collision.clearance(RobotGeometry::radians(q_deg));
+  };
+  const Clearance deck = at({180, 0, 60, 0, 90, 0});  // arm stretched back, forearm bent down
+  EXPECT_LT(deck.distance_m, 0.0) << deck.what;
+  const Clearance folded = at({0, -90, 178, 0, 90, 0});  // forearm on the upper arm
+  EXPECT_LT(folded.distance_m, 0.0) << folded.what;
+  const Clearance ground = at({0, 35, 10, 0, 0, 0});  // stretched forward and down
+  EXPECT_LT(ground.distance_m, 0.0);
+  const Clearance up = at({0, -90, 0, -90, 90, 0});
+  EXPECT_GT(up.distance_m, 0.0) << up.what;
+}
+
+TEST(ArmCollision, SceneBoxesAreSeenFromTheBase) {
+  const RobotGeometry robot = loadBob();
+  ArmCollision collision(robot);
+  const Vector6d q = RobotGeometry::radians(robot.q_drive_deg);
+  const Eigen::Vector3d p_base = robot.X_base_flange(q).translation();
+  const Pose2 X_map_base{3.0, -1.0, 2.0};
+  BoxConfig box;
+  box.name = "crate";
+  box.size_m = {0.1, 0.1, 0.1};
+  const Eigen::Vector3d p_map = toIsometry(X_map_base) * p_base;
+  box.center.xyz_m = {p_map.x(), p_map.y(), p_map.z()};
+  collision.setScene({box}, X_map_base);
+  const Clearance hit = collision.clearance(q);
+  EXPECT_LT(hit.distance_m, 0.0);
+  EXPECT_NE(hit.what.find("crate"), std::string::npos) << hit.what;
+  collision.setScene({box}, Pose2{0, 0, 0});
+  EXPECT_GT(collision.distance(q), 0.03);
+}
+
+TEST(ArmCollision, NoPointMovesFartherThanTheMotionBound) {
+  const RobotGeometry robot = loadBob();
+  const ArmCollision collision(robot);
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  const Eigen::Vector3d tip(0.10, -0.115, 0.19);  // a corner of the head, in flange
+  for (int k = 0; k < 2000; ++k) {
+    Vector6d q, dq;
+    for (int i = 0; i < 6; ++i) {
+      q[i] = M_PI * unit(random);
+      dq[i] = 0.3 * unit(random);
+    }
+    const Eigen::Vector3d before = robot.X_base_flange(q) * tip;
+    const Eigen::Vector3d after = robot.X_base_flange(q + dq) * tip;
+    ASSERT_LE((after - before).norm(), collision.motionBound(dq) + 1e-9);
+    ASSERT_LE(std::abs(collision.distance(q + dq, 5.0) - collision.distance(q, 5.0)),
+              collision.motionBound(dq) * 2.0 + 0.05);
+  }
+}
+
+TEST(ArmCollision, PathCheckFindsWhatFineSamplingFinds) {
+  const RobotGeometry robot = loadBob();
+  const ArmCollision collision(robot);
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  const Vector6d home = RobotGeometry::radians(robot.q_drive_deg);
+  int free = 0, blocked = 0;
+  for (int k = 0; k < 200; ++k) {
+    Vector6d q = home;
+    for (int i = 0; i < 6; ++i) q[i] += 1.2 * unit(random);
+    q = q.cwiseMax(-robot.arm.position_limit).cwiseMin(robot.arm.position_limit);
+    double least = INFINITY;
+    for (int n = 0; n <= 400; ++n) {
+      least = std::min(least, collision.distance(home + (q - home) * (n / 400.0)));
+    }
+    const bool is_free = collision.pathIsFree(home, q, 0.03);
+    (is_free ? free : blocked)++;
+    if (is_free) {
+      ASSERT_GT(least, 0.03 - 0.004);
+    } else {
+      ASSERT_LT(least, 0.03 + 0.002);
+    }
+  }
+  EXPECT_GT(free, 20);
+  EXPECT_GT(blocked, 20);
+}
+
+}  // namespace
+}  // namespace kiln

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "common/config/config_archive.h"
+#include "robot/scene/arena_map.h"
+
+namespace kiln {
+
+/// The robot and the kitchen as the shipped files describe them.
+inline RobotGeometry loadBob() {
+  RobotGeometry robot;
+  const auto loaded = loadConfig(KILN_SOURCE_DIR "/resources/robot_model/bob.yaml", robot);
+  EXPECT_TRUE(loaded.has_value()) << loaded.error();
+  return robot;
+}
+inline ArenaMap loadKitchen() {
+  ArenaMap arena;
+  const auto loaded = loadConfig(KILN_SOURCE_DIR "/resources/config/arena_kitchen.yaml", arena);
+  EXPECT_TRUE(loaded.has_value()) << loaded.error();
+  return arena;
+}
+inline std::vector<BoxConfig> kitchenBoxes(const ArenaMap& arena) {
+  std::vector<BoxConfig> boxes = arena.walls;
+  boxes.insert(boxes.end(), arena.furniture.begin(), arena.furniture.end());
+  for (const BoxConfig& box : arena.fireFurniture()) boxes.push_back(box);
+  return boxes;
+}
+/// Flange pose in base at which the thermal camera stands at p and looks along base X, upright.
+inline Eigen::Isometry3d flangeForCamera(const RobotGeometry& robot,
+                                         const Eigen::Vector3d& p_base) {
+  Eigen::Isometry3d X_base_thermal = Eigen::Isometry3d::Identity();
+  X_base_thermal.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+  X_base_thermal.translation() = p_base;
+  return X_base_thermal * robot.X_flange_thermal.pose().inverse();
+}
+
+}  // namespace kiln

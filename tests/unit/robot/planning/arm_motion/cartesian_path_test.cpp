@@ -1,0 +1,125 @@
+#include "robot/planning/arm_motion/cartesian_path.h"
+
+#include <cmath>
+
+#include "robot/planning/arm_motion/arm_planner.h"
+#include "robot/planning/arm_motion/ur_inverse.h"
+#include "tests/unit/robot/planning/arm_motion/bob.h"
+
+namespace kiln {
+namespace {
+
+class CartesianPathTest : public ::testing::Test {
+ protected:
+  Vector6d postureFor(const Eigen::Isometry3d& X_base_flange) {
+    const Vector6d home = RobotGeometry::radians(robot.q_drive_deg);
+    Vector6d best = home;
+    double cost = INFINITY;
+    for (const Vector6d& q :
+         inverseSolutions(robot.arm, robot.X_base_armbase.pose().inverse() * X_base_flange)) {
+      const Vector6d near = nearestTurn(robot.arm, q, home);
+      const double d = (near - home).cwiseAbs().maxCoeff();
+      if (d < cost && collision.distance(near) > 0.03) {
+        cost = d;
+        best = near;
+      }
+    }
+    EXPECT_TRUE(std::isfinite(cost));
+    return best;
+  }
+
+  RobotGeometry robot = loadBob();
+  ArenaMap arena = loadKitchen();
+  ArmCollision collision{robot};
+};
+
+/// The search of the fire mission: thermal camera 0.9 m in front of the plate, over +-0.35 m and
+/// 0.9 to 1.3 m.
+TEST_F(CartesianPathTest, TheWholeSearchRectangleIsOneSmoothLineAtEachFirePlace) {
+  for (const FirePlaceConfig& place : arena.fire_places) {
+    collision.setScene(kitchenBoxes(arena), place.work_pose.pose());
+    std::vector<Eigen::Isometry3d> raster;
+    double side = -1.0;
+    for (double z = 1.3; z > 0.85; z -= 0.1, side = -side) {
+      raster.push_back(flangeForCamera(robot, {1.25, side * 0.35, z}));
+      raster.push_back(flangeForCamera(robot, {1.25, -side * 0.35, z}));
+    }
+    const Vector6d q0 = postureFor(raster.front());
+    const Vector6d home = RobotGeometry::radians(robot.q_drive_deg);
+    EXPECT_TRUE(collision.pathIsFree(home, q0, 0.03)) << place.name;
+    raster.erase(raster.begin());
+    const auto paths = cartesianPaths(robot, collision, {}, q0, raster, true);
+    ASSERT_TRUE(paths.has_value()) << place.name << ": " << paths.error();
+    ASSERT_EQ(paths->size(), 1u);
+    // 5 x 0.7 m and 4 x 0.1 m less eight rounded corners, and the camera stays in its plane looking ahead.
+    EXPECT_NEAR(paths->front().s.back(), 3.9, 0.2);
+    EXPECT_LT(paths->front().s.back(), 3.9);
+    for (const Vector6d& q : paths->front().q) {
+      const Eigen::Isometry3d X = robot.X_base_flange(q) * robot.X_flange_thermal.pose();
+      ASSERT_NEAR(X.translation().x(), 1.25, 1e-6);
+      ASSERT_GT(X.linear()(0, 2), 1.0 - 1e-9);
+    }
+  }
+}
+
+TEST_F(CartesianPathTest, UnblendedLinesAreStraightAndEndAtEachPose) {
+  const std::vector<Eigen::Isometry3d> poses{flangeForCamera(robot, {1.25, 0.2, 1.2}),
+                                             flangeForCamera(robot, {1.25, -0.2, 1.0})};
+  const Vector6d q0 = postureFor(flangeForCamera(robot, {1.25, 0, 1.1}));
+  const auto paths = cartesianPaths(robot, collision, {}, q0, poses, false);
+  ASSERT_TRUE(paths.has_value()) << paths.error();
+  ASSERT_EQ(paths->size(), 2u);
+  const Eigen::Vector3d a = poses[0].translation(), b = poses[1].translation();
+  for (const Vector6d& q : (*paths)[1].q) {
+    const Eigen::Vector3d p = robot.X_base_flange(q).translation();
+    ASSERT_LT((p - a).cross((b - a).normalized()).norm(), 1e-9);
+  }
+  const Eigen::Isometry3d end = robot.X_base_flange((*paths)[1].q.back());
+  EXPECT_LT((end.matrix() - poses[1].matrix()).norm(), 1e-9);
+}
+
+TEST_F(CartesianPathTest, BlendedCornersStayWithinTheirRadius) {
+  CartesianPathConfig config;
+  const Vector6d q0 = postureFor(flangeForCamera(robot, {1.25, 0.2, 1.1}));
+  const Eigen::Isometry3d corner = flangeForCamera(robot, {1.25, 0, 1.1});
+  const auto paths = cartesianPaths(robot, collision, config, q0,
+                                    {corner, flangeForCamera(robot, {1.25, 0, 1.3})}, true);
+  ASSERT_TRUE(paths.has_value()) << paths.error();
+  double nearest = INFINITY;
+  for (const Vector6d& q : paths->front().q) {
+    nearest =
+        std::min(nearest, (robot.X_base_flange(q).translation() - corner.translation()).norm());
+  }
+  EXPECT_LT(nearest, config.blend_radius_m);
+  EXPECT_GT(nearest, 0.2 * config.blend_radius_m);
+}
+
+TEST_F(CartesianPathTest, SaysWhyALineCannotBeFollowed) {
+  const Vector6d q0 = postureFor(flangeForCamera(robot, {1.25, 0, 1.1}));
+  const auto far =
+      cartesianPaths(robot, collision, {}, q0, {flangeForCamera(robot, {2.6, 0, 1.1})}, false);
+  ASSERT_FALSE(far.has_value());
+  EXPECT_EQ(far.error().code, ErrorCode::Degenerate);
+  BoxConfig box;
+  box.name = "cupboard";
+  box.center.xyz_m = {1.4, 0.35, 1.1};
+  box.size_m = {0.3, 0.1, 0.3};
+  collision.setScene({box}, Pose2{});
+  const auto hit =
+      cartesianPaths(robot, collision, {}, q0, {flangeForCamera(robot, {1.25, 0.35, 1.1})}, false);
+  ASSERT_FALSE(hit.has_value());
+  EXPECT_EQ(hit.error().code, ErrorCode::Refused);
+  EXPECT_NE(hit.error().message.find("cupboard"), std::string::npos) << hit.error();
+}
+
+TEST_F(CartesianPathTest, TheNozzleComesToItsWantedPose) {
+  Eigen::Isometry3d X_base_nozzle = Eigen::Isometry3d::Identity();
+  X_base_nozzle.linear() = frameFromXAndUp(Eigen::Vector3d(1, 0.1, 0.15), Eigen::Vector3d::UnitZ());
+  X_base_nozzle.translation() = Eigen::Vector3d(1.25, 0.1, 1.05);
+  const Vector6d q = postureFor(flangeFor(X_base_nozzle, robot.X_flange_nozzle.pose()));
+  const Eigen::Isometry3d got = robot.X_base_flange(q) * robot.X_flange_nozzle.pose();
+  EXPECT_LT((got.matrix() - X_base_nozzle.matrix()).norm(), 1e-9);
+}
+
+}  // namespace
+}  // namespace kiln
