@@ -32,7 +32,7 @@ class MoveArm final : public ArmMotion {
     double jerk_time_s = 0.12;        ///< ramp of the acceleration
     double goal_tolerance_deg = 0.5;  ///< measured joints at the end
     double settle_timeout_s = 2.0;    ///< to come to rest before and after
-    int planning_slice = 60;          ///< search iterations in one poll
+    int planning_slice = 10;          ///< search iterations in one poll
     ArmPlanner::Config planner;
     CartesianPathConfig cartesian;
     void visit(ConfigArchive& a);
