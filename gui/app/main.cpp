@@ -12,6 +12,7 @@
 #include "gui/app/screenshots.h"
 #include "gui/app/stall_meter.h"
 #include "gui/link/fake_link.h"
+#include "gui/link/robot_link.h"
 #include "gui/views/scene3d/scene_renderer.h"
 
 namespace kiln::gui {
@@ -29,9 +30,16 @@ bool haveDisplay() {
   return (x11 && *x11) || (wayland && *wayland);
 }
 
-std::unique_ptr<Link> makeLink(const StationOptions& options) {
+Result<std::unique_ptr<Link>> makeLink(const StationOptions& options) {
+  if (!options.fake) {
+    auto live = std::make_unique<RobotLink>(
+        RobotLink::Options{options.endpoint, options.operator_name, KILN_VERSION});
+    if (const auto connected = live->connectToRobot(); !connected)
+      return tl::make_unexpected(connected.error());
+    return live;
+  }
   FakeLink::Options fake;
-  fake.seed = options.fake.value_or(1);
+  fake.seed = *options.fake;
   fake.speed = options.fake_speed;
   fake.autostart = true;
   return std::make_unique<FakeLink>(fake);
@@ -52,7 +60,12 @@ int run(int argc, char** argv, const StationOptions& options) {
     std::cerr << "kiln-station: " << path.error().message << '\n';
     return EXIT_FAILURE;
   }
-  const std::unique_ptr<Link> link = makeLink(options);
+  const auto made = makeLink(options);
+  if (!made) {
+    std::cerr << "kiln-station: " << made.error().message << '\n';
+    return EXIT_FAILURE;
+  }
+  Link* const link = made->get();
   StationModels models(*link);
   const SteadyClock steady;
   MainWindow window({theme, steady}, models, {geometry, !options.flat && openGlAvailable()});

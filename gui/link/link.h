@@ -66,8 +66,8 @@ class Link : public QObject {
   /// Sends a discrete command once; never re-sent. @return its nonce, by which acks refer to it; 0
   /// if there is no link.
   virtual std::uint64_t send(const CommandBody& body) = 0;
-  /// Streams this setpoint at 25 Hz until it is replaced by another of its kind or released. Call
-  /// on every change.
+  /// Hold-to-run: streams this setpoint at 25 Hz. One a kind; a new value replaces the old. Repeat
+  /// it at 5 Hz or more while it is held: a caller that hangs or forgets is a release after 200 ms.
   virtual void startSetpoint(const CommandBody& body) = 0;
   /// Ends every setpoint stream: an explicit zero, three times.
   virtual void releaseSetpoints() = 0;

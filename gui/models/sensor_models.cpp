@@ -25,8 +25,10 @@ ThermalModel::ThermalModel(Link& link, QObject* parent) : Model(link, kVideoAge,
 
 double ThermalModel::frozenS() const { return image_ ? toSeconds(stationNow() - advanced_) : -1.0; }
 
-CameraModel::CameraModel(Link& link, QObject* parent) : Model(link, kVideoAge, parent) {
+CameraModel::CameraModel(Link& link, std::string frame, QObject* parent)
+    : Model(link, kVideoAge, parent), frame_(std::move(frame)) {
   connect(&link, &Link::image, this, [this](RgbImagePtr image) {
+    if (image->frame != frame_) return;
     image_ = std::move(image);
     arrived(image_->stamp);
   });

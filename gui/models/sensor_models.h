@@ -35,14 +35,16 @@ class ThermalModel : public Model {
   Stamp advanced_;
 };
 
-/// Newest operator camera picture.
+/// Newest picture of one camera.
 class CameraModel : public Model {
   Q_OBJECT
  public:
-  explicit CameraModel(Link& link, QObject* parent = nullptr);
+  /// @param frame  which camera: "operator_camera" or "rgb" (the head's).
+  CameraModel(Link& link, std::string frame, QObject* parent = nullptr);
   [[nodiscard]] const RgbImagePtr& image() const { return image_; }  ///< may be null
 
  private:
+  std::string frame_;
   RgbImagePtr image_;
 };
 

@@ -13,7 +13,8 @@ StationModels::StationModels(Link& link_in, QObject* parent)
       fsm(link),
       cloud(link),
       thermal(link),
-      camera(link),
+      camera(link, "operator_camera"),
+      head_camera(link, "rgb"),
       scene(link),
       macros(link),
       alarms(link, commands),
@@ -62,8 +63,9 @@ void StationModels::flush() {
        {static_cast<Model*>(&commands), static_cast<Model*>(&status),
         static_cast<Model*>(&link_state), static_cast<Model*>(&stop), static_cast<Model*>(&lease),
         static_cast<Model*>(&fsm), static_cast<Model*>(&cloud), static_cast<Model*>(&thermal),
-        static_cast<Model*>(&camera), static_cast<Model*>(&scene), static_cast<Model*>(&macros),
-        static_cast<Model*>(&alarms), static_cast<Model*>(&log), static_cast<Model*>(&trends)}) {
+        static_cast<Model*>(&camera), static_cast<Model*>(&head_camera),
+        static_cast<Model*>(&scene), static_cast<Model*>(&macros), static_cast<Model*>(&alarms),
+        static_cast<Model*>(&log), static_cast<Model*>(&trends)}) {
     model->flush();
   }
 }

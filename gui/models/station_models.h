@@ -32,7 +32,8 @@ class StationModels : public QObject {
   FsmModel fsm;
   CloudModel cloud;
   ThermalModel thermal;
-  CameraModel camera;
+  CameraModel camera;       ///< the operator's, rear top
+  CameraModel head_camera;  ///< at the end-effector
   SceneModel scene;
   MacroModel macros;
   AlarmModel alarms;

@@ -1,0 +1,73 @@
+#include "gui/link/jpeg_decoder.h"
+
+#include <QImage>
+#include <algorithm>
+#include <utility>
+
+namespace kiln::gui {
+
+namespace {
+constexpr int kMaxSide_px = 8192;
+}
+
+JpegDecoder::JpegDecoder(std::function<void(RgbImagePtr)> done,
+                         std::function<void(const std::string&)> failed)
+    : done_(std::move(done)),
+      failed_(std::move(failed)),
+      thread_([this](std::stop_token stop) { run(stop); }) {}
+
+JpegDecoder::~JpegDecoder() {
+  thread_.request_stop();
+  thread_.join();
+}
+
+void JpegDecoder::put(JpegImagePtr picture) {
+  {
+    const std::lock_guard lock(mutex_);
+    const std::string camera = picture->frame;
+    waiting_[camera] = std::move(picture);
+  }
+  wake_.notify_one();
+}
+
+RgbImagePtr JpegDecoder::decode(const JpegImage& picture) {
+  if (picture.width <= 0 || picture.height <= 0 || picture.width > kMaxSide_px ||
+      picture.height > kMaxSide_px)
+    return {};
+  const QImage image =
+      QImage::fromData(picture.jpeg.data(), static_cast<int>(picture.jpeg.size()), "JPEG")
+          .convertToFormat(QImage::Format_RGB888);
+  if (image.width() != picture.width || image.height() != picture.height) return {};
+  auto out = std::make_shared<RgbImage>();
+  out->stamp = picture.stamp;
+  out->seq = picture.seq;
+  out->frame = picture.frame;
+  out->width = image.width();
+  out->height = image.height();
+  const auto row_bytes = static_cast<std::size_t>(3 * image.width());
+  out->data.resize(row_bytes * static_cast<std::size_t>(image.height()));
+  for (int y = 0; y < image.height(); ++y) {
+    std::copy_n(image.constScanLine(y), row_bytes,
+                out->data.begin() + static_cast<std::ptrdiff_t>(row_bytes * y));
+  }
+  return out;
+}
+
+void JpegDecoder::run(std::stop_token stop) {
+  while (!stop.stop_requested()) {
+    std::map<std::string, JpegImagePtr> pictures;
+    {
+      std::unique_lock lock(mutex_);
+      if (!wake_.wait(lock, stop, [this] { return !waiting_.empty(); })) return;
+      pictures = std::exchange(waiting_, {});
+    }
+    for (const auto& [camera, picture] : pictures) {
+      if (auto image = decode(*picture))
+        done_(std::move(image));
+      else
+        failed_("camera " + camera + " sent a picture that is no JPEG of its size");
+    }
+  }
+}
+
+}  // namespace kiln::gui
