@@ -4,6 +4,7 @@
 
 #include "common/model/status.h"
 #include "robot/app/alarm_book.h"
+#include "robot/hal/arena.h"
 #include "robot/app/teleop.h"
 #include "robot/missions/fire/fire_mission.h"
 #include "robot/safety/authority.h"

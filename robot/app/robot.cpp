@@ -124,7 +124,7 @@ struct Robot::Impl {
 Robot::Impl::Impl(const RobotSettings& settings_in, const RobotOptions& options_in,
                   Devices devices_in, const Clock& clock_in, Executor& executor,
                   OperatorLink* link_in, StopLatch& stop_in, RobotGeometry robot_in,
-                  ArenaMap arena_in, SprayCalibration spray_in)
+                  ArenaMap arena_in, const SprayCalibration& spray_in)
     : settings(settings_in),
       options(options_in),
       devices(std::move(devices_in)),
@@ -151,7 +151,7 @@ Robot::Impl::Impl(const RobotSettings& settings_in, const RobotOptions& options_
               settings.fire, spray_in, {options.mission_uuid, checkpointPath()}),
       teleop(settings.teleop, robot, base, arm, pumps),
       authority(settings.authority),
-      control({mission.machine(), world, teleop, macros, alarms, stop, devices.arm, devices.arena}),
+      control({mission, teleop, macros, alarms, stop, devices.arm, devices.arena}),
       telemetry({10.0, 10.0, 5.0, settings.camera_rate_hz, settings.jpeg_quality}, link, executor),
       report(options.mission, clock.now()) {}
 
