@@ -53,7 +53,8 @@ void warnIfFailed(const Result<void>& started) {
 struct Robot::Impl {
   Impl(const RobotSettings& settings_in, const RobotOptions& options_in, Devices devices_in,
        const Clock& clock_in, Executor& executor, OperatorLink* link_in, StopLatch& stop_in,
-       RobotGeometry robot_in, ArenaMap arena_in, const SprayCalibration& spray_in);
+       RobotGeometry robot_in, ArenaMap arena_in, const SprayCalibration& spray_in,
+       std::vector<Macro> macros_in);
   void start(Executor& executor);
   void controlTick(Stamp now);
   void missionTick(Stamp now);
@@ -74,6 +75,10 @@ struct Robot::Impl {
   [[nodiscard]] std::string checkpointPath() const {
     return options.state_dir.empty() ? std::string()
                                      : options.state_dir + "/" + options.mission + ".checkpoint";
+  }
+  [[nodiscard]] std::optional<Eigen::Isometry3d> flange() const {
+    const auto state = devices.arm.state();
+    return state ? std::optional(robot.X_base_flange(state->q)) : std::nullopt;
   }
   Result<void> resume(Stamp now);
 
@@ -124,7 +129,7 @@ struct Robot::Impl {
 Robot::Impl::Impl(const RobotSettings& settings_in, const RobotOptions& options_in,
                   Devices devices_in, const Clock& clock_in, Executor& executor,
                   OperatorLink* link_in, StopLatch& stop_in, RobotGeometry robot_in,
-                  ArenaMap arena_in, const SprayCalibration& spray_in)
+                  ArenaMap arena_in, const SprayCalibration& spray_in, std::vector<Macro> macros_in)
     : settings(settings_in),
       options(options_in),
       devices(std::move(devices_in)),
@@ -149,6 +154,10 @@ Robot::Impl::Impl(const RobotSettings& settings_in, const RobotOptions& options_
       mission({clock, arena, robot, world, drive, move_arm, devices.arm, pumps, sweep,
                [this] { return pose(); }},
               settings.fire, spray_in, {options.mission_uuid, checkpointPath()}),
+      macros(settings.macros,
+             {robot, arena, move_arm, pumps, spray_in, [this] { return pose(); },
+              [this] { return flange(); }, [this] { return authority.epoch().value(); }},
+             std::move(macros_in)),
       teleop(settings.teleop, robot, base, arm, pumps),
       authority(settings.authority),
       control({mission, teleop, macros, alarms, stop, devices.arm, devices.arena}),
@@ -434,8 +443,13 @@ Result<std::unique_ptr<Robot>> Robot::create(const RobotSettings& settings,
   auto spray = loadResource<SprayCalibration>(settings.spray_calibration);
   if (!spray) return tl::make_unexpected(spray.error());
   if (auto valid = spray->validate(); !valid) return tl::make_unexpected(valid.error());
-  auto impl = std::make_unique<Impl>(settings, options, std::move(devices), clock, executor, link,
-                                     stop, std::move(*robot), std::move(*arena), *spray);
+  auto folder = resourcePath("macros");
+  if (!folder) return tl::make_unexpected(folder.error());
+  auto macros = loadMacros(*folder);
+  if (!macros) return tl::make_unexpected(macros.error());
+  auto impl =
+      std::make_unique<Impl>(settings, options, std::move(devices), clock, executor, link, stop,
+                             std::move(*robot), std::move(*arena), *spray, std::move(*macros));
   impl->start(executor);
   if (options.resume) {
     if (auto resumed = impl->resume(clock.now()); !resumed)

@@ -24,6 +24,7 @@ void RobotSettings::visit(ConfigArchive& a) {
   a.section("heat_localizer", heat_localizer, "heat source over a sweep");
   a.section("fire", fire, "fire mission");
   a.section("authority", authority, "lease, command gate, dead-man");
+  a.section("macros", macros, "macros");
   a.section("teleop", teleop, "moving by hand");
   a.section("preflight", preflight, "limits of the preflight checks");
 }

@@ -9,6 +9,7 @@
 #include "robot/perception/thermal/heat_localizer.h"
 #include "robot/safety/authority.h"
 #include "robot/skills/drive_to.h"
+#include "robot/skills/macro_runner.h"
 #include "robot/skills/move_arm.h"
 
 namespace kiln {
@@ -36,6 +37,7 @@ struct RobotSettings {
   HeatLocalizer::Config heat_localizer;
   FireConfig fire;
   Authority::Config authority;
+  MacroRunnerConfig macros;
   Teleop::Config teleop;
   PreflightLimits preflight;
   void visit(ConfigArchive& a);
