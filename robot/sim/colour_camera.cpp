@@ -15,6 +15,7 @@ namespace {
 constexpr int kBlock = 4;
 constexpr std::size_t kNoiseTable = 1u << 16;
 constexpr float kPaneTint = 0.20F;
+const Eigen::Vector3f kPaneColour(206, 228, 232);
 
 /// Everything seen along one ray.
 struct Sample {
@@ -42,15 +43,17 @@ struct ColourCamera::Impl {
     }
   }
 
-  /// Through a pixel, in map.
-  [[nodiscard]] Eigen::Vector3f direction(float u, float v) const {
+  /// Through a pixel, in map; not of unit length, linear in u and v.
+  [[nodiscard]] Eigen::Vector3f through(float u, float v) const {
     const float x = (u - 0.5F * static_cast<float>(camera.width - 1)) / focal;
     const float y = (v - 0.5F * static_cast<float>(camera.height - 1)) / focal;
-    return (R * Eigen::Vector3f(x, y, 1.0F)).normalized();
+    return R * Eigen::Vector3f(x, y, 1.0F);
+  }
+  [[nodiscard]] Eigen::Vector3f direction(float u, float v) const {
+    return through(u, v).normalized();
   }
   void castSamples(std::vector<Sample>& samples);
-  [[nodiscard]] Eigen::Vector3f colour(const Sample& s, const Eigen::Vector3f& d, float range,
-                                       float sunlit) const;
+  [[nodiscard]] Eigen::Vector3f colour(const Sample& s, const Eigen::Vector3f& d) const;
   [[nodiscard]] bool plain(int column, int row) const;
   void fillPlain(int column, int row, std::vector<std::uint8_t>& out);
   void put(std::vector<std::uint8_t>& out, int u, int v, const Eigen::Vector3f& c) const;
@@ -99,15 +102,16 @@ void ColourCamera::Impl::castSamples(std::vector<Sample>& samples) {
   for (std::size_t i = 0; i < rays.size(); ++i) samples[i].sunlit = shadows[i] != 0 ? 0.0F : 1.0F;
 }
 
-Eigen::Vector3f ColourCamera::Impl::colour(const Sample& s, const Eigen::Vector3f& d, float range,
-                                           float sunlit) const {
+Eigen::Vector3f ColourCamera::Impl::colour(const Sample& s, const Eigen::Vector3f& d) const {
   Eigen::Vector3f c = Daylight::sky(d);
   if (s.hit.valid()) {
-    const SurfaceLook look = surfaceLook(RayScene::material(s.hit), origin + range * d,
+    const SurfaceLook look = surfaceLook(RayScene::material(s.hit), origin + s.hit.range * d,
                                          s.hit.normal, scene.temperature(s.hit));
-    c = light.shade(look, s.hit.normal, sunlit);
+    c = look.glows
+            ? look.colour
+            : Eigen::Vector3f(look.colour.cwiseProduct(light.strength(s.hit.normal, s.sunlit)));
   }
-  if (s.pane) c += kPaneTint * (Eigen::Vector3f(206, 228, 232) - c);
+  if (s.pane) c += kPaneTint * (kPaneColour - c);
   return c;
 }
 
@@ -124,34 +128,46 @@ bool ColourCamera::Impl::plain(int column, int row) const {
 
 void ColourCamera::Impl::put(std::vector<std::uint8_t>& out, int u, int v,
                              const Eigen::Vector3f& c) const {
-  std::uint8_t* pixel =
-      out.data() + 3 * (static_cast<std::size_t>(v) * static_cast<std::size_t>(camera.width) +
-                        static_cast<std::size_t>(u));
-  const int n = noise[(noise_at + static_cast<std::size_t>(v * 7919 + u * 31)) % kNoiseTable];
+  const int at = v * camera.width + u;
+  std::uint8_t* pixel = out.data() + 3 * static_cast<std::size_t>(at);
+  const int n = noise[(noise_at + static_cast<std::size_t>(at)) % kNoiseTable];
   for (int k = 0; k < 3; ++k)
     pixel[k] = static_cast<std::uint8_t>(std::clamp(static_cast<int>(c[k]) + n, 0, 255));
 }
 
+/// One plane, one material: the light is worked out once, the pattern and the shadow's edge pixel
+/// by pixel.
 void ColourCamera::Impl::fillPlain(int column, int row, std::vector<std::uint8_t>& out) {
   const Sample& a = corner(column, row);
-  const Sample &b = corner(column + 1, row), &c = corner(column, row + 1),
-               &e = corner(column + 1, row + 1);
+  const float sun[4] = {a.sunlit, corner(column + 1, row).sunlit, corner(column, row + 1).sunlit,
+                        corner(column + 1, row + 1).sunlit};
+  const bool even = sun[0] == sun[1] && sun[0] == sun[2] && sun[0] == sun[3];
+  const Material material = RayScene::material(a.hit);
   const int u0 = column * kBlock, v0 = row * kBlock;
-  // The plane: n . (p - origin) = offset.
-  const float offset = a.hit.valid()
-                           ? a.hit.range * a.hit.normal.dot(direction(static_cast<float>(u0),
-                                                                      static_cast<float>(v0)))
-                           : 0.0F;
-  for (int dv = 0; dv < kBlock; ++dv) {
-    for (int du = 0; du < kBlock; ++du) {
-      const float x = static_cast<float>(du) / kBlock, y = static_cast<float>(dv) / kBlock;
-      const float sunlit = (1 - x) * (1 - y) * a.sunlit + x * (1 - y) * b.sunlit +
-                           (1 - x) * y * c.sunlit + x * y * e.sunlit;
-      const Eigen::Vector3f d = direction(static_cast<float>(u0 + du), static_cast<float>(v0 + dv));
-      const float facing = a.hit.valid() ? a.hit.normal.dot(d) : -1.0F;
-      const float range = std::fabs(facing) > 1e-6F ? offset / facing : a.hit.range;
-      put(out, u0 + du, v0 + dv, colour(a, d, range, sunlit));
-    }
+  const Eigen::Vector3f first = through(static_cast<float>(u0), static_cast<float>(v0));
+  if (!a.hit.valid() || (even && !patterned(material))) {
+    const Eigen::Vector3f c = colour(a, first.normalized());
+    for (int k = 0; k < kBlock * kBlock; ++k) put(out, u0 + k % kBlock, v0 + k / kBlock, c);
+    return;
+  }
+  const Eigen::Vector3f normal = a.hit.normal, dark = light.strength(normal, 0.0F),
+                        lit = light.strength(normal, 1.0F) - dark;
+  const Eigen::Vector3f step_u = R.col(0) / focal, step_v = R.col(1) / focal;
+  const float offset =
+      a.hit.range * normal.dot(first.normalized());  // the plane: normal . (p - origin) = offset
+  for (int k = 0; k < kBlock * kBlock; ++k) {
+    const float du = static_cast<float>(k % kBlock), dv = static_cast<float>(k / kBlock);
+    const float x = du / kBlock, y = dv / kBlock;
+    const float sunlit =
+        even ? sun[0]
+             : (1 - y) * ((1 - x) * sun[0] + x * sun[1]) + y * ((1 - x) * sun[2] + x * sun[3]);
+    const Eigen::Vector3f d = first + du * step_u + dv * step_v;
+    const SurfaceLook look = surfaceLook(material, origin + (offset / normal.dot(d)) * d, normal,
+                                         scene.temperature(a.hit));
+    Eigen::Vector3f c =
+        look.glows ? look.colour : Eigen::Vector3f(look.colour.cwiseProduct(dark + sunlit * lit));
+    if (a.pane) c += kPaneTint * (kPaneColour - c);
+    put(out, u0 + k % kBlock, v0 + k / kBlock, c);
   }
 }
 
@@ -208,7 +224,7 @@ RgbImagePtr ColourCamera::render(const SceneState& state) {
     const int k = static_cast<int>(i % (kBlock * kBlock));
     const Sample& s = w.details[i];
     w.put(image->data, column * kBlock + k % kBlock, row * kBlock + k / kBlock,
-          w.colour(s, w.rays[i].direction, s.hit.range, s.sunlit));
+          w.colour(s, w.rays[i].direction));
   }
   return image;
 }

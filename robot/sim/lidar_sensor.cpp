@@ -58,6 +58,9 @@ LidarSensor::LidarSensor(const LidarConfig& config, const RobotGeometry& robot,
                      static_cast<float>(t), (kElevation[laser] + 15) / 2};
     bias_m_[laser] = bias.normal(config.bias_sigma_m);
   }
+  for (int column = 0; column < config.columns; ++column) {
+    for (const Beam& beam : beams_) table_.push_back(direction(column, beam, 0.0F, 0.0F));
+  }
 }
 
 Stamp LidarSensor::columnTime(std::int64_t column) const {
@@ -86,8 +89,10 @@ void LidarSensor::fireColumn(std::int64_t column, const Eigen::Isometry3d& X_map
   const Eigen::Vector3f origin = X_map_lidar.translation().cast<float>();
   columns_.push_back(column);
   rotations_.push_back(R);
-  for (const Beam& beam : beams_) {
-    directions_.push_back(direction(column, beam, 0.0F, 0.0F));
+  const Eigen::Vector3f* const aim =
+      &table_[static_cast<std::size_t>(column % config_.columns) * kLasers];
+  for (std::size_t laser = 0; laser < kLasers; ++laser) {
+    directions_.push_back(aim[laser]);
     const bool acrylic = random_.uniform() < config_.acrylic_return;
     rays_.push_back({origin, R * directions_.back(), static_cast<float>(config_.max_range_m),
                      mask::kLidar | (acrylic ? mask::kAcrylic : 0)});

@@ -44,7 +44,8 @@ class LidarSensor {
   Random random_;
   std::array<Beam, 16> beams_{};
   std::array<double, 16> bias_m_{};
-  std::int64_t next_column_ = 0;  ///< since world start
+  std::vector<Eigen::Vector3f> table_;  ///< direction in lidar by column of a turn and laser
+  std::int64_t next_column_ = 0;        ///< since world start
   bool running_ = false;
   std::uint64_t seq_ = 0;
   std::shared_ptr<PointCloud> scan_;

@@ -18,12 +18,14 @@ inline constexpr std::uint32_t kWarmPatch =
     8;  ///< warm places that have no shape of their own: infrared only
 inline constexpr std::uint32_t kSilk =
     16;  ///< the moving flame: light, infrared and LiDAR, not water
-inline constexpr std::uint32_t kLightOnly = 32;  ///< water drops
-inline constexpr std::uint32_t kGripper = 64;         ///< the thermal camera looks out of it
-inline constexpr std::uint32_t kLidarHousing = 128;   ///< the LiDAR turns inside it
+inline constexpr std::uint32_t kLightOnly = 32;      ///< water drops
+inline constexpr std::uint32_t kGripper = 64;        ///< the thermal camera looks out of it
+inline constexpr std::uint32_t kLidarHousing = 128;  ///< the LiDAR turns inside it
 inline constexpr std::uint32_t kLidar = kSolid | kRobot | kSilk | kGripper;
-inline constexpr std::uint32_t kThermal = kSolid | kRobot | kAcrylic | kWarmPatch | kSilk | kLidarHousing;
-inline constexpr std::uint32_t kColour = kSolid | kRobot | kSilk | kLightOnly | kGripper | kLidarHousing;
+inline constexpr std::uint32_t kThermal =
+    kSolid | kRobot | kAcrylic | kWarmPatch | kSilk | kLidarHousing;
+inline constexpr std::uint32_t kColour =
+    kSolid | kRobot | kSilk | kLightOnly | kGripper | kLidarHousing;
 inline constexpr std::uint32_t kWater = kSolid | kAcrylic;
 }  // namespace mask
 

@@ -12,8 +12,17 @@ Colour mix(const Colour& a, const Colour& b, float share) {
   return a + std::clamp(share, 0.0F, 1.0F) * (b - a);
 }
 
-/// Distance to the nearest line of a grid.
-float gridDistance(float x, float pitch) { return std::fabs(x - pitch * std::round(x / pitch)); }
+/// std::floor is a library call on the baseline x86-64, and this runs for every pixel.
+int wholePart(float x) {
+  const int i = static_cast<int>(x);
+  return x < static_cast<float>(i) ? i - 1 : i;
+}
+
+/// Whether x is nearer than `half` to a line of a grid.
+bool onLine(float x, float pitch, float half) {
+  const float cell = x / pitch + 0.5F;
+  return std::fabs(cell - static_cast<float>(wholePart(cell)) - 0.5F) * pitch < half;
+}
 
 bool inBuilding(const Eigen::Vector3f& p) {
   return p.x() > 5.0F && p.x() < 14.0F && std::fabs(p.y()) < 6.0F;
@@ -21,13 +30,12 @@ bool inBuilding(const Eigen::Vector3f& p) {
 
 Colour floorColour(const Eigen::Vector3f& p) {
   if (!inBuilding(p)) {
-    const bool line = std::min(gridDistance(p.x(), 2.0F), gridDistance(p.y(), 2.0F)) < 0.02F;
+    const bool line = onLine(p.x(), 2.0F, 0.02F) || onLine(p.y(), 2.0F, 0.02F);
     return line ? Colour(150, 148, 142) : Colour(128, 126, 122);
   }
-  const bool joint = std::min(gridDistance(p.x(), 0.5F), gridDistance(p.y(), 0.5F)) < 0.008F;
+  const bool joint = onLine(p.x(), 0.5F, 0.008F) || onLine(p.y(), 0.5F, 0.008F);
   if (joint) return {120, 112, 104};
-  const int tile =
-      static_cast<int>(std::floor(p.x() / 0.5F)) + static_cast<int>(std::floor(p.y() / 0.5F));
+  const int tile = wholePart(p.x() * 2.0F) + wholePart(p.y() * 2.0F);
   return tile % 2 == 0 ? Colour(196, 184, 168) : Colour(184, 172, 156);
 }
 
@@ -87,13 +95,15 @@ SurfaceLook surfaceLook(Material material, const Eigen::Vector3f& p, const Eigen
   }
 }
 
-Eigen::Vector3f Daylight::shade(const SurfaceLook& look, const Eigen::Vector3f& normal,
-                                float sunlit) const {
-  if (look.glows) return look.colour;
+bool patterned(Material material) {
+  return material == Material::Floor || material == Material::Wall || material == Material::Flame;
+}
+
+Eigen::Vector3f Daylight::strength(const Eigen::Vector3f& normal, float sunlit) const {
   const float sky_light = 0.50F + 0.14F * normal.z();
   const float sun_light = 0.62F * sunlit * std::max(0.0F, normal.dot(to_sun));
   const Eigen::Vector3f warm(1.0F, 0.97F, 0.90F), cool(0.94F, 0.97F, 1.0F);
-  return look.colour.cwiseProduct(sky_light * cool + sun_light * warm);
+  return sky_light * cool + sun_light * warm;
 }
 
 Eigen::Vector3f Daylight::sky(const Eigen::Vector3f& direction) {

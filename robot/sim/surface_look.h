@@ -15,14 +15,17 @@ struct SurfaceLook {
 /// Light of one scene: sun and sky.
 struct Daylight {
   Eigen::Vector3f to_sun = Eigen::Vector3f(-0.42F, -0.38F, 0.82F).normalized();
-  /// @param sunlit 0 (shadow) to 1.
-  [[nodiscard]] Eigen::Vector3f shade(const SurfaceLook& look, const Eigen::Vector3f& normal,
-                                      float sunlit) const;
+  /// Share of a surface's colour that comes back. @param sunlit 0 (shadow) to 1.
+  [[nodiscard]] Eigen::Vector3f strength(const Eigen::Vector3f& normal, float sunlit) const;
   [[nodiscard]] static Eigen::Vector3f sky(const Eigen::Vector3f& direction);
 };
 
 /// @param p hit point in map. @param plate_c temperature of the burning plate.
 [[nodiscard]] SurfaceLook surfaceLook(Material material, const Eigen::Vector3f& p,
                                       const Eigen::Vector3f& normal, double temperature_c);
+
+/// Whether the colour changes from place to place (floor, walls); else one call serves a whole
+/// face.
+[[nodiscard]] bool patterned(Material material);
 
 }  // namespace kiln::sim

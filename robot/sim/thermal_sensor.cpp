@@ -9,6 +9,7 @@ namespace {
 constexpr int kWidth = 160, kHeight = 120;
 constexpr float kSkyC = 10.0F;  // clear sky seen over the walls
 constexpr double kZeroCelsius = 273.15;
+constexpr float kWarmC = 36.0F;   // rims of cooler things matter to nobody
 constexpr float kMotorC = 33.0F;  // joints of a working arm
 
 }  // namespace
@@ -99,7 +100,7 @@ void ThermalSensor::castPixels(const SceneState& state, const RayScene& scene) {
   refineEdges(X, scene);
 }
 
-/// A pixel integrates over its area: where the surface changes, sixteen rays instead of one.
+/// A pixel integrates over its area: along the rim of something warm, sixteen rays instead of one.
 void ThermalSensor::refineEdges(const Eigen::Isometry3d& X, const RayScene& scene) {
   constexpr int kSide = 4, kRays = kSide * kSide;
   std::vector<std::size_t> edges;
@@ -109,10 +110,12 @@ void ThermalSensor::refineEdges(const Eigen::Isometry3d& X, const RayScene& scen
   for (int v = 1; v + 1 < kHeight; ++v) {
     for (int u = 1; u + 1 < kWidth; ++u) {
       const std::size_t i = static_cast<std::size_t>(v * kWidth + u);
-      const auto warmer = [&](std::size_t j) {
-        return std::fabs(celsius_[j] - celsius_[i]) > 2.0F;
+      const auto warmEdge = [&](std::size_t j) {
+        return std::max(celsius_[i], celsius_[j]) > kWarmC &&
+               std::fabs(celsius_[j] - celsius_[i]) > 2.0F;
       };
-      if (!warmer(i - 1) && !warmer(i + 1) && !warmer(i - kWidth) && !warmer(i + kWidth)) continue;
+      if (!warmEdge(i - 1) && !warmEdge(i + 1) && !warmEdge(i - kWidth) && !warmEdge(i + kWidth))
+        continue;
       edges.push_back(i);
       for (int k = 0; k < kRays; ++k) {
         const Eigen::Vector2d at(u + (k % kSide + 0.5) / kSide - 0.5,

@@ -82,7 +82,7 @@ struct LidarConfig {
   double dropout = 0.005;
   double acrylic_return = 0.03;
   double min_range_m = 0.4, max_range_m = 100.0;
-  double chunk_s = 0.010;  ///< bodies move once a chunk, the sensor with every column
+  double chunk_s = 0.020;  ///< bodies move once a chunk, the sensor with every column
   void visit(ConfigArchive& a);
 };
 
