@@ -21,6 +21,10 @@ constexpr double kExtrapolate =
 constexpr double kRestSpeed = 0.02;    // rad/s, measured
 constexpr double kCommandRest = 1e-4;  // rad/s
 constexpr auto kMaxTtl = std::chrono::milliseconds(250);
+// After this long without a target the device has stopped by its own watchdog (200 ms) or is about
+// to.
+constexpr auto kDeviceHolds = std::chrono::milliseconds(150);
+constexpr auto kDeviceRests = std::chrono::milliseconds(300);
 
 }  // namespace
 
@@ -77,23 +81,53 @@ struct ArmController::Impl {
     if (protective) return "protective stop: it needs the operator's word to be released";
     if (!state->powered) return "arm is not powered";
     const double age = toSeconds(now - state->stamp);
-    if (age > config.max_state_age_s) return fmt::format("arm state is {:.0f} ms old", 1e3 * age);
+    if (age > config.max_state_age_s) {
+      was_stale = true;
+      return fmt::format("arm state is {:.0f} ms old", 1e3 * age);
+    }
     return "";
+  }
+
+  [[nodiscard]] bool commandRests() const {
+    return tracker.velocity().cwiseAbs().maxCoeff() < kCommandRest;
   }
 
   /// In these the device holds or falls by itself: the command must follow the joints, not the
   /// other way round.
-  bool mustFollowDevice(const std::optional<ArmState>& state) const {
-    return protective || !state->powered || state->safety == ArmSafetyMode::EmergencyStop ||
-           state->safety == ArmSafetyMode::Fault;
+  bool mustFollowDevice(const ArmState& state) const {
+    return protective || !state.powered || state.safety == ArmSafetyMode::EmergencyStop ||
+           state.safety == ArmSafetyMode::Fault;
+  }
+
+  /// The device has not followed us for a while (first state, lost ticks, a link that was down):
+  /// begin anew from where the joints are.
+  bool mustBeginAnew(Stamp now) const {
+    const bool silent = last_sent && now - *last_sent > kDeviceHolds && !tracking_lost;
+    return !synchronised || silent || (was_stale && commandRests());
+  }
+
+  /// Joints that do not follow are blocked, or people moved them. Pressing on is no answer: nothing
+  /// is sent, so that the device holds, until a Hold setpoint came and the arm rests.
+  void watchTrackingError(Stamp now, const ArmState& state) {
+    const double error = (tracker.position() - state.q).cwiseAbs().maxCoeff();
+    if (!tracking_lost && error > config.max_tracking_error_deg * kDeg) {
+      tracking_lost = true;
+      hold_seen = false;
+      lost_text = fmt::format("arm does not follow: {:.1f} deg behind", error / kDeg);
+    }
+    if (!tracking_lost) return;
+    tracker.reset(state.q);
+    const bool rests = state.qd.cwiseAbs().maxCoeff() < kRestSpeed;
+    if (hold_seen && rests && last_sent && now - *last_sent > kDeviceRests) tracking_lost = false;
   }
 
   void followDevice(const ArmState& state) {
     tracker.reset(state.q);
     slot.clear();
     current = {};
-    contact_stop = tracking_lost = false;
+    contact_stop = tracking_lost = was_stale = false;
     synchronised = true;
+    last_sent.reset();
   }
 
   /// The setpoint to act on, or why there is none.
@@ -131,20 +165,15 @@ struct ArmController::Impl {
     has_previous = true;
     if (next.kind == Kind::Hold) {
       contact_stop = false;
-      if (tracking_lost && tracker.velocity().cwiseAbs().maxCoeff() < kCommandRest) resync = true;
-      tracking_lost = false;
+      hold_seen = true;
     }
   }
 
   /// Latched ends of guarded or failing motion.
-  std::string motionBlock(const ArmState& state) {
-    const double error = (tracker.position() - state.q).cwiseAbs().maxCoeff();
-    if (error > config.max_tracking_error_deg * kDeg) tracking_lost = true;
+  std::string motionBlock() {
+    if (tracking_lost) return lost_text;
     if (current.stop_force_n > 0.0 && contact.force() > current.stop_force_n) contact_stop = true;
     if (contact_stop) return fmt::format("contact of {:.0f} N", contact.force());
-    if (tracking_lost) {
-      return fmt::format("arm does not follow: {:.1f} deg behind", error / kDeg);
-    }
     return "";
   }
 
@@ -187,7 +216,7 @@ struct ArmController::Impl {
   }
 
   /// The last gate before the device: whatever went wrong above, no bad command passes.
-  std::string send(const Vector6d& before, double dt) {
+  std::string send(Stamp now, const Vector6d& before, double dt) {
     const Vector6d q = tracker.position();
     const Vector6d step = (q - before).cwiseAbs();
     bool good = q.allFinite() && tracker.velocity().allFinite();
@@ -199,6 +228,7 @@ struct ArmController::Impl {
       tracker.reset(before);
       return "command held: it would have left the joint limits";
     }
+    last_sent = now;
     const auto sent = arm.servo({q, tracker.velocity()});
     return sent ? "" : sent.error().message;
   }
@@ -211,8 +241,7 @@ struct ArmController::Impl {
     tracking.q_command = tracker.position();
     if (state && state->q.allFinite()) {
       tracking.tracking_error_rad = (tracker.position() - state->q).cwiseAbs().maxCoeff();
-      tracking.at_rest = tracker.velocity().cwiseAbs().maxCoeff() < kCommandRest &&
-                         state->qd.cwiseAbs().maxCoeff() < kRestSpeed;
+      tracking.at_rest = commandRests() && state->qd.cwiseAbs().maxCoeff() < kRestSpeed;
     }
     tracking.contact_stop = contact_stop;
     tracking.contact_force_n = contact.force();
@@ -232,10 +261,12 @@ struct ArmController::Impl {
   ContactMonitor contact;
   ArmSetpoint current;
   Vector6d qdd_reference = Vector6d::Zero();
-  bool has_previous = false, synchronised = false, resync = false;
+  bool has_previous = false, synchronised = false, was_stale = false;
   bool protective = false, contact_stop = false, tracking_lost = false, refused = false;
+  bool hold_seen = false;  ///< since tracking was lost
+  std::string lost_text;
   std::atomic<bool> release_requested{false};
-  std::optional<Stamp> last_tick;
+  std::optional<Stamp> last_tick, last_sent;
   mutable std::mutex mutex;
   ArmTracking tracking;
 };
@@ -266,14 +297,12 @@ void ArmController::tick(Stamp now) {
   const std::optional<ArmState> state = m.arm.state();
   std::string blocked = m.deviceBlock(now, state);
   const bool usable = state && state->q.allFinite() && state->qd.allFinite();
-  if (usable && (!m.synchronised || m.resync || m.mustFollowDevice(state))) {
-    m.followDevice(*state);
-    m.resync = false;
-  }
+  const bool follow = usable && m.mustFollowDevice(*state);
+  if (follow || (usable && blocked.empty() && m.mustBeginAnew(now))) m.followDevice(*state);
   const bool ready = blocked.empty() && !m.stop.latched();
+  if (usable && m.synchronised && blocked.empty()) m.watchTrackingError(now, *state);
   if (usable && state->wrench_tool.allFinite()) {
-    const bool at_rest = m.tracker.velocity().cwiseAbs().maxCoeff() < kCommandRest;
-    m.contact.update(state->wrench_tool.head<3>(), at_rest, dt);
+    m.contact.update(state->wrench_tool.head<3>(), m.commandRests(), dt);
   }
   if (blocked.empty() && m.stop.latched()) {
     m.slot.clear();
@@ -281,11 +310,11 @@ void ArmController::tick(Stamp now) {
     blocked = "STOP latched by " + m.stop.source();
   }
   if (blocked.empty()) blocked = m.takeSetpoint(now);
-  if (usable && blocked.empty()) blocked = m.motionBlock(*state);
-  if (m.synchronised && !(usable && m.mustFollowDevice(state)) && dt > 0.0) {
+  if (const std::string latched = m.motionBlock(); blocked.empty()) blocked = latched;
+  if (m.synchronised && !follow && !m.tracking_lost && dt > 0.0) {
     const Vector6d before = m.tracker.position();
     m.move(now, !blocked.empty(), dt);
-    const std::string failed = m.send(before, dt);
+    const std::string failed = m.send(now, before, dt);
     if (blocked.empty()) blocked = failed;
   }
   m.publish(now, state, blocked, ready);

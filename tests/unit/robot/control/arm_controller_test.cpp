@@ -226,12 +226,54 @@ TEST_F(ArmControllerTest, AJammedArmStopsAndTheCommandReturnsToTheJointsOnHold) 
   arm.jam(true);
   jog(qd, 1.5);
   EXPECT_NE(controller.tracking().blocked.find("does not follow"), std::string::npos);
+  const std::size_t sent = arm.sent().size();
+  idle(0.3);
+  EXPECT_EQ(arm.sent().size(), sent);  // nothing presses on
   arm.jam(false);
-  for (int k = 0; k < 30; ++k) {
-    controller.setpoint({.kind = Kind::Hold, .stamp = clock.now()});
-    tick();
+  jog(qd, 0.3);
+  EXPECT_EQ(arm.sent().size(), sent);  // still latched
+  controller.setpoint({.kind = Kind::Hold, .stamp = clock.now()});
+  idle(0.1);
+  EXPECT_LT((controller.tracking().q_command - arm.state()->q).norm(), 1e-6);
+  jog(qd, 0.5);
+  EXPECT_TRUE(controller.tracking().blocked.empty()) << controller.tracking().blocked;
+  EXPECT_GT(arm.sent().size(), sent);
+}
+
+TEST_F(ArmControllerTest, PeopleWhoMoveTheArmDoNotMakeItJumpBack) {
+  idle(0.5);
+  const std::size_t sent = arm.sent().size();
+  Vector6d moved = arm.state()->q;
+  moved[0] += 1.0;  // a reset: carried back and folded
+  arm.setQ(moved);
+  idle(1.0);
+  EXPECT_EQ(arm.sent().size(), sent);
+  controller.setpoint({.kind = Kind::Hold, .stamp = clock.now()});
+  idle(0.5);
+  ASSERT_GT(arm.sent().size(), sent);
+  for (std::size_t k = sent; k < arm.sent().size(); ++k) {
+    ASSERT_LT((arm.sent()[k].q - moved).norm(), 1e-6);
   }
-  EXPECT_LT((controller.tracking().q_command - arm.state()->q).norm(), 0.01);
+  EXPECT_EQ(arm.state()->safety, ArmSafetyMode::Normal);
+}
+
+TEST_F(ArmControllerTest, BeginsAnewFromTheJointsAfterLostTicks) {
+  Vector6d qd = Vector6d::Zero();
+  qd[0] = 0.8;
+  jog(qd, 1.0);
+  const Vector6d before = controller.tracking().q_command;
+  for (int k = 0; k < 60; ++k) {  // half a second in which the daemon did not run
+    clock.advanceBy(kTick);
+    arm.advance();
+  }
+  Vector6d sagged = arm.state()->q;
+  sagged[1] += 0.05;
+  arm.setQ(sagged);
+  const std::size_t sent = arm.sent().size();
+  idle(0.1);
+  ASSERT_GT(arm.sent().size(), sent);
+  EXPECT_LT((arm.sent()[sent].q - sagged).norm(), 0.01);
+  EXPECT_GT((sagged - before).norm(), 0.04);
 }
 
 TEST_F(ArmControllerTest, FollowsAnUnpoweredArmAndDoesNotMoveWhenPowerReturns) {
