@@ -92,7 +92,7 @@ CommandAck MissionControl::executeDiscrete(const Command& command, Stamp now) {
   }
   if (std::holds_alternative<ReleaseProtectiveStop>(body)) {
     logger("safety")->warn("protective stop released by {}", command.operator_name);
-    return fromResult(command, parts_.arm.releaseProtectiveStop());
+    return fromResult(command, parts_.arm_controller.releaseProtectiveStop());
   }
   if (std::holds_alternative<ResetRobot>(body)) {
     hold(now);

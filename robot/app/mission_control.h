@@ -6,6 +6,7 @@
 #include "robot/app/alarm_book.h"
 #include "robot/hal/arena.h"
 #include "robot/app/teleop.h"
+#include "robot/control/arm_controller.h"
 #include "robot/missions/fire/fire_mission.h"
 #include "robot/safety/authority.h"
 #include "robot/skills/macro_runner.h"
@@ -24,6 +25,7 @@ class MissionControl {
     AlarmBook& alarms;
     StopLatch& stop;
     Arm& arm;
+    ArmController& arm_controller;
     Arena& arena;
   };
   explicit MissionControl(Parts parts) : parts_(parts) {}

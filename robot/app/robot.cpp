@@ -160,7 +160,7 @@ Robot::Impl::Impl(const RobotSettings& settings_in, const RobotOptions& options_
              std::move(macros_in)),
       teleop(settings.teleop, robot, base, arm, pumps),
       authority(settings.authority),
-      control({mission, teleop, macros, alarms, stop, devices.arm, devices.arena}),
+      control({mission, teleop, macros, alarms, stop, devices.arm, arm, devices.arena}),
       telemetry({10.0, 10.0, 5.0, settings.camera_rate_hz, settings.jpeg_quality}, link, executor),
       report(options.mission, clock.now()) {}
 
