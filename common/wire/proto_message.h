@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include <google/protobuf/message_lite.h>
+#include <google/protobuf/stubs/logging.h>
 
 #include "common/core/error.h"
 
@@ -22,6 +23,7 @@ template <class Message>
     return makeError(ErrorCode::InvalidInput, "{}: {} bytes are more than {}; dropped", what,
                      bytes.size(), limit);
   }
+  const google::protobuf::LogSilencer silencer;  // the Error says it; a peer must not fill our log
   Message message;
   if (!message.ParseFromArray(bytes.data(), static_cast<int>(bytes.size()))) {
     return makeError(ErrorCode::InvalidInput, "{}: {} bytes cannot be parsed; dropped", what,

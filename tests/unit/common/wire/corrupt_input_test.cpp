@@ -1,0 +1,129 @@
+#include <random>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "common/wire/cloud_codec.h"
+#include "common/wire/command.h"
+#include "common/wire/compress.h"
+#include "common/wire/fsm.h"
+#include "common/wire/sensor.h"
+#include "common/wire/telemetry.h"
+#include "common/wire/world.h"
+
+namespace kiln::wire {
+namespace {
+
+using ::testing::HasSubstr;
+
+PointCloud someCloud() {
+  PointCloud cloud;
+  cloud.frame = "lidar";
+  for (int i = 0; i < 300; ++i) {
+    cloud.push(0.01f * static_cast<float>(i), 1.0f, 2.0f, 9, static_cast<std::uint8_t>(i % 16),
+               1e-5f);
+  }
+  return cloud;
+}
+ThermalImage someThermal() {
+  ThermalImage image;
+  image.width = 16;
+  image.height = 12;
+  image.counts.assign(16 * 12, 29815);
+  return image;
+}
+
+/// Every decoder on one input: none may crash, hang or allocate beyond its cap. @return how many
+/// took it.
+int feedAll(std::string_view bytes) {
+  return static_cast<int>(decodeCloud(bytes).has_value()) +
+         static_cast<int>(decodeThermal(bytes).has_value()) +
+         static_cast<int>(decodeJpeg(bytes).has_value()) +
+         static_cast<int>(decodeHeat(bytes).has_value()) +
+         static_cast<int>(decodeScene(bytes).has_value()) +
+         static_cast<int>(decodeFsmInfo(bytes).has_value()) +
+         static_cast<int>(decodeFsmStatus(bytes).has_value()) +
+         static_cast<int>(decodeToRobot(bytes).has_value()) +
+         static_cast<int>(decodeToStation(bytes).has_value()) +
+         static_cast<int>(decodeStopRequest(bytes).has_value()) +
+         static_cast<int>(decodeStopAck(bytes).has_value()) +
+         static_cast<int>(decodeRobotStatus(bytes).has_value()) +
+         static_cast<int>(decodeMacros(bytes).has_value()) +
+         static_cast<int>(decodeLogBatch(bytes).has_value());
+}
+
+TEST(CorruptInput, RandomBytesAreNeverACrash) {
+  std::mt19937_64 random(1);
+  for (int round = 0; round < 3000; ++round) {
+    std::string bytes(random() % 200, '\0');
+    for (char& c : bytes) c = static_cast<char>(random());
+    feedAll(bytes);
+  }
+}
+
+TEST(CorruptInput, FlippedAndCutMessagesAreNeverACrash) {
+  std::mt19937_64 random(2);
+  RobotStatus status;
+  status.alarms.push_back({});
+  Command command;
+  command.client_id = "c";
+  command.body = JogArm{};
+  FsmInfo info{"fire", "uuid", "Start", {FsmStateInfo{}}, {FsmEdgeInfo{}}};
+  const std::vector<std::string> good{encode(someCloud(), 0.005), encode(someThermal()),
+                                      encode(status), encode(info), encode(ToRobot{command})};
+  for (int round = 0; round < 4000; ++round) {
+    std::string bytes = good[static_cast<std::size_t>(round) % good.size()];
+    for (int flips = 1 + static_cast<int>(random() % 4); flips > 0; --flips) {
+      bytes[random() % bytes.size()] ^= static_cast<char>(1u << (random() % 8));
+    }
+    if (round % 3 == 0) bytes.resize(random() % bytes.size());
+    feedAll(bytes);
+  }
+}
+
+TEST(CorruptInput, DeclaredSizesAreCheckedBeforeTheyAreAllocated) {
+  PackedCloud packed = packCloud(someCloud(), 0.005);
+  packed.points = kMaxCloudPoints;  // claims more than its planes hold
+  const auto more = unpackCloud(packed);
+  ASSERT_FALSE(more.has_value());
+  EXPECT_THAT(more.error().message, HasSubstr("are due"));
+  packed.points = kMaxCloudPoints + 1;
+  EXPECT_FALSE(unpackCloud(packed).has_value());
+  packed.points = 300;
+  packed.ring =
+      compress(std::string(100'000'000, '\1'));  // a small frame that would unpack to 100 MB
+  EXPECT_LT(packed.ring.size(), 20'000u);
+  EXPECT_FALSE(unpackCloud(packed).has_value());
+}
+
+TEST(CorruptInput, ResolutionsThatCannotBeAreRefused) {
+  PackedCloud packed = packCloud(someCloud(), 0.005);
+  for (const double wrong : {0.0, -1.0, 1e9, std::nan("")}) {
+    packed.resolution_m = wrong;
+    EXPECT_FALSE(unpackCloud(packed).has_value()) << wrong;
+  }
+}
+
+TEST(CorruptInput, CutFramesSaySo) {
+  const std::string packed = compress(std::string(1000, 'x'));
+  const auto cut =
+      decompress(std::string_view(packed).substr(0, packed.size() - 3), 1000, "thermal image");
+  ASSERT_FALSE(cut.has_value());
+  EXPECT_THAT(cut.error().message, HasSubstr("thermal image"));
+}
+
+TEST(CorruptInput, UnknownCommandKindsAreNamedAsVersionTrouble) {
+  // ToRobot { command { client_id: "c", nonce: 7 } } without a body, as a newer peer's unknown kind
+  // arrives.
+  const std::string bytes(
+      "\x1a\x05\x0a\x01"
+      "c"
+      "\x18\x07",
+      7);
+  const auto command = decodeToRobot(bytes);
+  ASSERT_FALSE(command.has_value());
+  EXPECT_THAT(command.error().message, HasSubstr("same version"));
+}
+
+}  // namespace
+}  // namespace kiln::wire

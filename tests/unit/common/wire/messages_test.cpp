@@ -1,0 +1,141 @@
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "common/wire/command.h"
+#include "common/wire/fsm.h"
+#include "common/wire/sensor.h"
+#include "common/wire/telemetry.h"
+#include "common/wire/world.h"
+
+namespace kiln::wire {
+namespace {
+
+Stamp at(double s) { return Stamp{fromSeconds(s)}; }
+
+std::vector<CommandBody> everyBody() {
+  JogArm arm{JogFrame::Tool, {}};
+  arm.velocity << 0.1, -0.2, 0.3, -0.4, 0.5, -0.6;
+  return {AcquireLease{true},
+          ReleaseLease{},
+          StartMission{},
+          Pause{},
+          Resume{},
+          ChangeState{"A", 7, "B"},
+          SetMode{Mode::Teleop},
+          ClearStop{},
+          ReleaseProtectiveStop{},
+          ResetRobot{},
+          SetSpeedScale{0.0},
+          CancelMacro{},
+          AcknowledgeAlarm{"arm.x"},
+          JogBase{{0.1, -0.2, 0.3}},
+          arm,
+          HoldPump{0.0, 1.0},
+          HoldMacro{"spray fire 1", true},
+          ReleaseAll{}};
+}
+
+TEST(Messages, EveryCommandKindComesBackAsItself) {
+  const auto bodies = everyBody();
+  ASSERT_EQ(bodies.size(), std::variant_size_v<CommandBody>);
+  for (const CommandBody& body : bodies) {
+    const Command sent{"client", "anna", 42, 3, at(12.5), body};
+    const auto message = decodeToRobot(encode(ToRobot{sent}));
+    ASSERT_TRUE(message.has_value()) << commandName(body) << ": " << message.error();
+    const auto& back = std::get<Command>(*message);
+    EXPECT_EQ(back.body.index(), body.index()) << commandName(body);
+    EXPECT_EQ(back.nonce, 42u);
+    EXPECT_EQ(back.issued, sent.issued);
+    // The message is its own proof: encoding again yields the same bytes.
+    EXPECT_EQ(encode(ToRobot{back}), encode(ToRobot{sent})) << commandName(body);
+  }
+}
+
+TEST(Messages, NotANumberReachesTheGate) {
+  const Command sent{"client", "anna", 1, 1, at(0), JogBase{{std::nan(""), 0, 0}}};
+  const auto message = decodeToRobot(encode(ToRobot{sent}));
+  ASSERT_TRUE(message.has_value());
+  EXPECT_TRUE(std::isnan(std::get<JogBase>(std::get<Command>(*message).body).twist.vx_mps));
+}
+
+TEST(Messages, HelloOfAnotherProtocolIsReadableWhateverItsRoles) {
+  Hello hello;
+  hello.protocol = kProtocolVersion + 5;
+  hello.role = static_cast<ClientRole>(17);
+  EXPECT_TRUE(decodeToRobot(encode(ToRobot{hello})).has_value());
+  hello.protocol = kProtocolVersion;
+  EXPECT_FALSE(decodeToRobot(encode(ToRobot{hello})).has_value());
+}
+
+TEST(Messages, RobotStatusKeepsEveryField) {
+  RobotStatus s;
+  s.stamp = at(3.25);
+  s.seq = 9;
+  s.mode = Mode::Teleop;
+  s.word = StatusWord::Teleop;
+  s.checks = {{"lidar", true, "10 Hz"}};
+  s.lease = {"id", "anna", 4, 1.5, "id2", "ben", 8.0};
+  s.stop = {true, "operator ben", at(2.0), true};
+  s.X_map_base = {1.0, 2.0, 0.5};
+  s.twist = {0.1, 0.2, 0.3};
+  s.arm.q << 1, 2, 3, 4, 5, 6;
+  s.arm.safety = ArmSafetyMode::ProtectiveStop;
+  s.X_base_nozzle = makePose({1, 0, 1}, {0.1, 0.2, 0.3});
+  s.wheel_steer_rad = {0.1, 0.2, 0.3, 0.4};
+  s.water = {{0.5, 1.0}, {2.0, 2.1}, {4.0, 4.5}, 0.7};
+  s.macro = {"arm park", 1, 2, "arm to park", 0.4, "done"};
+  s.alarms = {{"a.b", AlarmLevel::Warning, "text", "action", at(1.0), true, false}};
+  s.drops = {{"cloud", 3}};
+  s.operators = {"anna", "ben"};
+  const auto back = decodeRobotStatus(encode(s));
+  ASSERT_TRUE(back.has_value()) << back.error();
+  EXPECT_TRUE(back->X_base_nozzle.isApprox(s.X_base_nozzle, 1e-12));
+  RobotStatus same = *back;
+  same.X_base_nozzle = s.X_base_nozzle;  // a rotation through a quaternion differs in its last bit
+  EXPECT_EQ(encode(same), encode(s));
+  EXPECT_EQ(back->lease.requested_by_name, "ben");
+  EXPECT_EQ(back->water.tank_l_est, s.water.tank_l_est);
+}
+
+TEST(Messages, ThermalCountsComeBackExactly) {
+  std::mt19937 random(4);
+  ThermalImage image;
+  image.counts.resize(160 * 120);
+  for (auto& c : image.counts) c = static_cast<std::uint16_t>(random());
+  image.ffc = FfcState::Running;
+  const auto back = decodeThermal(encode(image));
+  ASSERT_TRUE(back.has_value()) << back.error();
+  EXPECT_EQ(back->counts, image.counts);
+  EXPECT_EQ(back->ffc, FfcState::Running);
+}
+
+TEST(Messages, SceneAndGraphComeBack) {
+  Scene scene;
+  scene.fires.push_back({at(1), {1, 2, 3}, Eigen::Matrix3d::Random(), 4, 350, 0.9, 1.1, "place 1"});
+  scene.places.push_back({"place 1", {4, 5, 6}, 0.5, true});
+  scene.planned.waypoints_map = {{1, 2, 3}};
+  scene.jet.points_map = {{1, 0, 0}, {2, 0, 0}};
+  scene.arena.push_back({"wall", makePose({1, 2, 3}, {0, 0, 1}), {1, 1, 1}, 0xff00ff});
+  const auto back = decodeScene(encode(scene));
+  ASSERT_TRUE(back.has_value()) << back.error();
+  EXPECT_TRUE(back->fires.at(0).covariance.isApprox(scene.fires[0].covariance));
+  EXPECT_EQ(encode(*back), encode(scene));
+
+  FsmStatus status;
+  status.guards = {{"Estimate within 3 cm", true, "2.1 cm", 0.2}};
+  status.history = {{3, "AimHose", at(1), at(2), TransitionCause::Operator, "anna"}};
+  const auto fsm = decodeFsmStatus(encode(status));
+  ASSERT_TRUE(fsm.has_value()) << fsm.error();
+  EXPECT_EQ(encode(*fsm), encode(status));
+}
+
+TEST(Messages, LogTextWithBrokenCharactersStillArrives) {
+  const LogBatch batch{{{at(1), 3, "io", "caf\xe9 \xf0\x9f\x94\xa5 ok"}}, 2};
+  const auto back = decodeLogBatch(encode(batch));
+  ASSERT_TRUE(back.has_value()) << back.error();
+  EXPECT_EQ(back->lines.at(0).text, "caf? \xf0\x9f\x94\xa5 ok");
+}
+
+}  // namespace
+}  // namespace kiln::wire

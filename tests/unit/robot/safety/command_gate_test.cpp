@@ -1,0 +1,225 @@
+#include "robot/safety/command_gate.h"
+
+#include <limits>
+#include <set>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace kiln {
+namespace {
+
+using ::testing::HasSubstr;
+
+Stamp at(double s) { return Stamp{fromSeconds(s)}; }
+
+/// A gate with the lease at "anna" (epoch 3), in teleop with a fresh view, at time 100 s.
+struct Desk {
+  CommandGate gate{CommandGate::Config{}};
+  LeaseStatus lease;
+  GateSituation situation;
+  Stamp now = at(100.0);
+  std::uint64_t nonce = 0;
+
+  Desk() {
+    lease.holder_client = "anna";
+    lease.holder_name = "Anna";
+    lease.epoch = 3;
+    situation.mode = Mode::Teleop;
+    situation.view_age_s = 0.1;
+  }
+  ReceivedCommand make(CommandBody body) {
+    ReceivedCommand received;
+    received.command = {"anna", "Anna", ++nonce, 3, now - fromSeconds(0.02), std::move(body)};
+    received.received = now;
+    received.rtt_s = 0.01;
+    return received;
+  }
+  GateDecision decide(const ReceivedCommand& received) {
+    return gate.decide(received, lease, situation, now);
+  }
+  std::string code(CommandBody body) { return decide(make(std::move(body))).code; }
+};
+const JogBase kForward{{0.3, 0.0, 0.0}};
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+TEST(CommandGate, LetsAFreshCommandOfTheHolderPass) {
+  Desk desk;
+  const auto decision = desk.decide(desk.make(kForward));
+  EXPECT_TRUE(decision.accepted) << decision.reason;
+  EXPECT_EQ(decision.speed_scale, 1.0);
+}
+
+TEST(CommandGate, NamesEachRefusalByACodeOfItsOwn) {
+  Desk desk;
+  std::set<std::string> codes;
+  const auto expect = [&](const ReceivedCommand& received, const char* code) {
+    const auto decision = desk.decide(received);
+    EXPECT_FALSE(decision.accepted);
+    EXPECT_EQ(decision.code, code) << decision.reason;
+    EXPECT_FALSE(decision.reason.empty());
+    codes.insert(decision.code);
+  };
+  auto viewer = desk.make(kForward);
+  viewer.role = ClientRole::Viewer;
+  expect(viewer, "viewer");
+  auto stranger = desk.make(kForward);
+  stranger.command.client_id = "ben";
+  expect(stranger, "no_lease");
+  auto old_lease = desk.make(kForward);
+  old_lease.command.lease_epoch = 2;
+  expect(old_lease, "old_lease");
+  const auto twice = desk.make(kForward);
+  EXPECT_TRUE(desk.decide(twice).accepted);
+  expect(twice, "replayed");
+  auto late = desk.make(kForward);
+  late.command.issued = desk.now - fromSeconds(0.31);
+  expect(late, "too_old");
+  auto future = desk.make(kForward);
+  future.command.issued = desk.now + fromSeconds(0.2);
+  expect(future, "in_future");
+  expect(desk.make(JogBase{{kNan, 0, 0}}), "not_finite");
+  expect(desk.make(JogBase{{50.0, 0, 0}}), "out_of_range");
+  desk.situation.mode = Mode::Autonomous;
+  expect(desk.make(kForward), "wrong_mode");
+  desk.situation.mode = Mode::Teleop;
+  desk.situation.view_age_s = 0.6;
+  expect(desk.make(kForward), "stale_view");
+  desk.situation.view_age_s = 0.1;
+  auto slow = desk.make(kForward);
+  slow.rtt_s = 0.51;
+  expect(slow, "link_slow");
+  desk.situation.protective_stop = true;
+  JogArm arm;
+  arm.velocity[0] = 0.1;
+  expect(desk.make(arm), "protective_stop");
+  desk.situation.stop_latched = true;
+  expect(desk.make(kForward), "stopped");
+  EXPECT_EQ(codes.size(), 13u);
+}
+
+TEST(CommandGate, RefusesASetpointThatWasOvertaken) {
+  Desk desk;
+  const auto first = desk.make(kForward);
+  const auto second = desk.make(kForward);
+  EXPECT_TRUE(desk.decide(second).accepted);
+  EXPECT_EQ(desk.decide(first).code, "out_of_order");
+}
+
+TEST(CommandGate, AgeLimitsDependOnTheKind) {
+  Desk desk;
+  const auto aged = [&](CommandBody body, double age_s) {
+    auto received = desk.make(std::move(body));
+    received.command.issued = desk.now - fromSeconds(age_s);
+    return desk.decide(received).code;
+  };
+  EXPECT_EQ(aged(kForward, 0.29), "");
+  EXPECT_EQ(aged(kForward, 0.31), "too_old");
+  EXPECT_EQ(aged(SetMode{Mode::Teleop}, 0.9), "");
+  EXPECT_EQ(aged(SetMode{Mode::Teleop}, 1.1), "too_old");
+  EXPECT_EQ(aged(ChangeState{"A", 1, "B"}, 1.9), "");
+  EXPECT_EQ(aged(ChangeState{"A", 1, "B"}, 2.1), "too_old");
+  // The age counts until it is decided, not until it was received: what waited in a queue is old.
+  auto queued = desk.make(kForward);
+  desk.now += fromSeconds(0.4);
+  EXPECT_EQ(desk.decide(queued).code, "too_old");
+}
+
+TEST(CommandGate, EveryNonFiniteNumberIsRefusedWhereverItStands) {
+  Desk desk;
+  for (const double wrong :
+       {kNan, std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()}) {
+    EXPECT_EQ(desk.code(JogBase{{0, wrong, 0}}), "not_finite");
+    EXPECT_EQ(desk.code(JogBase{{0, 0, wrong}}), "not_finite");
+    for (int i = 0; i < 6; ++i) {
+      JogArm jog;
+      jog.velocity[i] = wrong;
+      EXPECT_EQ(desk.code(jog), "not_finite");
+    }
+    EXPECT_EQ(desk.code(HoldPump{wrong, 0}), "not_finite");
+    EXPECT_EQ(desk.code(HoldPump{0, wrong}), "not_finite");
+    EXPECT_EQ(desk.code(SetSpeedScale{wrong}), "not_finite");
+  }
+  EXPECT_EQ(desk.code(HoldPump{1.1, 0}), "out_of_range");
+  EXPECT_EQ(desk.code(HoldPump{-0.1, 0}), "out_of_range");
+}
+
+/// architecture.md section 6, cell by cell.
+TEST(CommandGate, FollowsTheModeTable) {
+  const CommandBody transition = ChangeState{"A", 1, "B"};
+  const CommandBody macro = HoldMacro{"arm park", false};
+  const CommandBody pump = HoldPump{1.0, 1.0};
+  struct Row {
+    Mode mode;
+    bool transition, macro, jog, pump;
+  };
+  for (const Row& row :
+       {Row{Mode::Autonomous, true, false, false, false},
+        Row{Mode::Supervised, true, true, false, false}, Row{Mode::Teleop, true, true, true, true},
+        Row{Mode::Stopped, false, false, false, false}}) {
+    Desk desk;
+    desk.situation.mode = row.mode;
+    desk.situation.stop_latched = row.mode == Mode::Stopped;
+    EXPECT_EQ(desk.decide(desk.make(transition)).accepted, row.transition) << toString(row.mode);
+    EXPECT_EQ(desk.decide(desk.make(macro)).accepted, row.macro) << toString(row.mode);
+    EXPECT_EQ(desk.decide(desk.make(kForward)).accepted, row.jog) << toString(row.mode);
+    EXPECT_EQ(desk.decide(desk.make(pump)).accepted, row.pump) << toString(row.mode);
+  }
+}
+
+TEST(CommandGate, LatencySlowsJogsInSteps) {
+  Desk desk;
+  const auto scale = [&](double rtt_s) {
+    auto received = desk.make(kForward);
+    received.rtt_s = rtt_s;
+    return desk.decide(received).speed_scale;
+  };
+  EXPECT_EQ(scale(0.10), 1.0);
+  EXPECT_EQ(scale(0.20), 0.5);
+  EXPECT_EQ(scale(0.40), 0.2);
+}
+
+TEST(CommandGate, ReleasesAlwaysPassForTheHolder) {
+  Desk desk;
+  desk.situation.stop_latched = true;
+  desk.situation.view_age_s = 100.0;
+  for (const CommandBody& zero :
+       {CommandBody(ReleaseAll{}), CommandBody(JogBase{}), CommandBody(JogArm{}),
+        CommandBody(HoldPump{}), CommandBody(HoldMacro{})}) {
+    auto received = desk.make(zero);
+    received.command.issued = desk.now - fromSeconds(5.0);
+    EXPECT_TRUE(desk.decide(received).accepted) << commandName(zero);
+  }
+}
+
+TEST(CommandGate, StopIsClearedOnlyWhenNothingIsHeld) {
+  Desk desk;
+  EXPECT_EQ(desk.code(ClearStop{}), "not_stopped");
+  desk.situation.stop_latched = true;
+  desk.situation.anything_held = true;
+  EXPECT_EQ(desk.code(ClearStop{}), "still_held");
+  desk.situation.anything_held = false;
+  EXPECT_EQ(desk.code(ClearStop{}), "");
+}
+
+TEST(CommandGate, MissionCommandsNeedTheirPremises) {
+  Desk desk;
+  EXPECT_EQ(desk.code(StartMission{}), "wrong_mode");
+  desk.situation.mode = Mode::Autonomous;
+  EXPECT_EQ(desk.code(Pause{}), "not_running");
+  EXPECT_EQ(desk.code(Resume{}), "not_paused");
+  desk.situation.ready = false;
+  desk.situation.not_ready_reason = "LiDAR: no scan for 2.1 s";
+  const auto decision = desk.decide(desk.make(StartMission{}));
+  EXPECT_EQ(decision.code, "not_ready");
+  EXPECT_THAT(decision.reason, HasSubstr("LiDAR"));
+  desk.situation.ready = true;
+  EXPECT_EQ(desk.code(StartMission{}), "");
+  desk.situation.mission_running = true;
+  EXPECT_EQ(desk.code(StartMission{}), "already_running");
+  EXPECT_EQ(desk.code(ReleaseProtectiveStop{}), "no_protective_stop");
+  EXPECT_EQ(desk.code(SetMode{Mode::Stopped}), "out_of_range");
+}
+
+}  // namespace
+}  // namespace kiln
