@@ -9,6 +9,7 @@
 #include "common/robot_model/robot_geometry.h"
 #include "robot/evaluation/evaluation.h"
 #include "robot/evaluation/live_system.h"
+#include "robot/evaluation/truth.h"
 #include "robot/scene/arena_map.h"
 
 namespace kiln {
@@ -137,7 +138,7 @@ Result<EvaluationResult> evaluateFallback(const SweepOptions& options) {
     auto truth_text = (*live)->finish();
     if (!truth_text) return tl::make_unexpected(truth_text.error());
     const json truth = json::parse(*truth_text);
-    litres.push_back(truth.value("burning_litres", 0.0));
+    litres.push_back(burningLitres(truth));
     collisions.push_back(static_cast<double>(truth.at("collisions").size()));
     runs.push_back({{"seed", seed},
                     {"litres_delivered", litres.back()},

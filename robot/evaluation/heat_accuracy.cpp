@@ -27,11 +27,12 @@ std::vector<TruthSample> parseTrace(const std::string& jsonl) {
   for (std::string line; std::getline(lines, line);) {
     const json sample = json::parse(line, nullptr, false);
     if (sample.is_discarded() || !sample.contains("thermal")) continue;
-    const auto& pose = sample["thermal"];  // [x, y, z, qw, qx, qy, qz] in map
+    const auto& p = sample["thermal"]["xyz_m"];
+    const auto& q = sample["thermal"]["wxyz"];
     out.push_back({sample["t"].get<double>(),
-                   {pose[0].get<double>(), pose[1].get<double>(), pose[2].get<double>()},
-                   Eigen::Quaterniond(pose[3].get<double>(), pose[4].get<double>(),
-                                      pose[5].get<double>(), pose[6].get<double>())});
+                   {p[0].get<double>(), p[1].get<double>(), p[2].get<double>()},
+                   Eigen::Quaterniond(q[0].get<double>(), q[1].get<double>(), q[2].get<double>(),
+                                      q[3].get<double>())});
   }
   return out;
 }
@@ -55,13 +56,13 @@ bool cameraAt(const std::vector<TruthSample>& trace, double t_s, Eigen::Isometry
 void appendHeatErrors(const MissionRun& run, HeatErrors& errors) {
   const json reports = json::parse(run.robot_json);
   const auto trace = parseTrace(run.trace_jsonl);
-  const auto& plates = reports["truth"].value("plates_map", json::array());
   for (const auto& estimate : reports["robot"].value("heat_estimates", json::array())) {
     Eigen::Isometry3d X_map_thermal;
     if (!cameraAt(trace, estimate["t"].get<double>(), X_map_thermal)) continue;
     const auto& p = estimate["p_thermal"];
     const Eigen::Vector3d estimated(p[0].get<double>(), p[1].get<double>(), p[2].get<double>());
-    for (const auto& plate : plates) {
+    for (const auto& place : reports["truth"].at("fire_places")) {
+      const auto& plate = place["plate_xyz_m"];
       const Eigen::Vector3d p_map(plate[0].get<double>(), plate[1].get<double>(),
                                   plate[2].get<double>());
       const Eigen::Vector3d truth = X_map_thermal.inverse() * p_map;

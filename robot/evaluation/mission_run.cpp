@@ -7,6 +7,7 @@
 
 #include "common/core/clock.h"
 #include "robot/evaluation/child_process.h"
+#include "robot/evaluation/truth.h"
 
 namespace kiln {
 namespace {
@@ -75,7 +76,7 @@ struct Folder {
 json mergeReports(const MissionRunOptions& options, const json& robot, const json& truth,
                   bool& success) {
   const auto& collisions = truth.at("collisions");
-  const double burning_l = truth.value("burning_litres", 0.0);
+  const double burning_l = burningLitres(truth);
   const std::string outcome = robot.value("outcome", "unknown");
   success = outcome == "success" && collisions.empty() && burning_l >= 1.0;
   return json{{"mission", options.mission},
@@ -89,7 +90,7 @@ json mergeReports(const MissionRunOptions& options, const json& robot, const jso
               {"simulated_s", truth.at("simulated_s")},
               {"mission_s", robot.value("mission_s", 0.0)},
               {"litres_delivered", truth.at("litres_delivered")},
-              {"burning_place", truth.value("burning_place", "")},
+              {"burning_place", truth.value("burning_name", "")},
               {"litres_est", robot.value("litres_est", 0.0)},
               {"collisions", collisions},
               {"states", robot.at("states")},

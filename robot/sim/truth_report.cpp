@@ -57,6 +57,18 @@ Json perturbations(const Truth& t) {
           {"boxes", boxes}};
 }
 
+Json profileJson(const std::vector<JetProfile::Row>& rows) {
+  Json out = Json::array();
+  for (const JetProfile::Row& row : rows) {
+    out.push_back({{"distance_m", row.distance_m},
+                   {"drops", row.drops},
+                   {"drop_m", row.drop_m},
+                   {"lateral_m", row.lateral_m},
+                   {"rms_m", row.rms_m}});
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string truthJson(const Truth& t) {
@@ -78,6 +90,7 @@ std::string truthJson(const Truth& t) {
                     {"resets", t.resets},
                     {"pump_on_s", t.pump_on_s},
                     {"litres_emitted", t.litres_emitted},
+                    {"jet_profile", profileJson(t.jet_profile)},
                     {"tank_l", t.tank_l},
                     {"plate_c", t.plate_c},
                     {"final_base", json(t.X_map_base)},

@@ -26,6 +26,7 @@ void WaterJet::emit(double litres, double flow_fraction, const Eigen::Isometry3d
         Eigen::Vector3d(1.0, random_.normal(sigma), random_.normal(sigma)).normalized();
     Drop drop;
     drop.p = X_map_nozzle.translation();
+    drop.X_map_nozzle = X_map_nozzle;
     drop.v =
         v_nozzle + config_.exit_speed_mps * flow_fraction * (X_map_nozzle.linear() * direction);
     drops_.push_back(drop);
@@ -70,9 +71,10 @@ void WaterJet::step(double step_s, const Raycaster& scene) {
   std::vector<Drop> flying;
   flying.reserve(drops_.size());
   for (std::size_t i = 0; i < drops_.size(); ++i) {
+    profile_.pass(drops_[i].X_map_nozzle, drops_[i].p, next[i]);
     if (landed(i)) continue;
     flying.push_back({next[i], drops_[i].v - Eigen::Vector3d(0, 0, kGravity * step_s),
-                      drops_[i].age_s + step_s});
+                      drops_[i].age_s + step_s, drops_[i].X_map_nozzle});
   }
   drops_ = std::move(flying);
 }

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "robot/scene/raycaster.h"
+#include "robot/sim/jet_profile.h"
 #include "robot/sim/random.h"
 #include "robot/sim/true_arena.h"
 
@@ -23,6 +24,7 @@ class WaterJet {
   void step(double step_s, const Raycaster& scene);
   [[nodiscard]] const std::vector<double>& deliveredLitres() const { return delivered_l_; }
   [[nodiscard]] double emittedLitres() const { return emitted_l_; }
+  [[nodiscard]] const JetProfile& profile() const { return profile_; }
   /// Positions in map, newest last.
   [[nodiscard]] std::vector<Eigen::Vector3d> drops() const;
 
@@ -30,6 +32,7 @@ class WaterJet {
   struct Drop {
     Eigen::Vector3d p, v;
     double age_s = 0.0;
+    Eigen::Isometry3d X_map_nozzle = Eigen::Isometry3d::Identity();  ///< when it left
   };
   /// Whether the way from a to b leads inwards through the opening; then the share of the way at
   /// which it does.
@@ -40,6 +43,7 @@ class WaterJet {
   const std::vector<TrueFirePlace>& places_;
   Random random_;
   std::vector<Drop> drops_;
+  JetProfile profile_;
   std::vector<double> delivered_l_;
   double emitted_l_ = 0.0, waiting_l_ = 0.0;
   std::vector<Raycaster::Ray> rays_;

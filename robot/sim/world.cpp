@@ -219,6 +219,7 @@ Truth World::truth() const {
   }
   t.pump_on_s = w.pumps.onTime();
   t.litres_emitted = w.jet.emittedLitres();
+  t.jet_profile = w.jet.profile().rows();
   for (std::size_t i = 0; i < 2; ++i) {
     t.tank_l[i] = w.pumps.tank(i);
     t.full_flow_lpm[i] = w.pumps.fullFlow(i);

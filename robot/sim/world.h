@@ -8,6 +8,7 @@
 #include "common/model/sensor.h"
 #include "robot/hal/arm.h"
 #include "robot/hal/drive_base.h"
+#include "robot/sim/jet_profile.h"
 #include "robot/sim/scene_state.h"
 #include "robot/sim/true_arena.h"
 
@@ -60,6 +61,7 @@ struct Truth {
   std::uint32_t resets = 0;
   double score = 0.0;
   double pump_on_s = 0.0, litres_emitted = 0.0;
+  std::vector<JetProfile::Row> jet_profile;
   std::array<double, 2> tank_l{}, full_flow_lpm{};
   Eigen::Isometry3d X_map_base, X_map_thermal, X_map_nozzle;
   Vector6d q;
