@@ -5,6 +5,7 @@
 
 #include "common/config/resources.h"
 #include "common/core/log.h"
+#include "common/geom/frames.h"
 #include "robot/app/heat_localizer_sweep.h"
 #include "robot/app/mission_control.h"
 #include "robot/app/mission_report.h"
@@ -67,6 +68,7 @@ struct Robot::Impl {
   void recordEstimate(Stamp image, const Eigen::Isometry3d& X_map_thermal);
   void raiseAlarms(Stamp now);
   void publish(Stamp now);
+  void runCameraOnDemand();
   [[nodiscard]] RobotStatus status(Stamp now) const;
   [[nodiscard]] Scene scene(Stamp now) const;
   [[nodiscard]] PreflightInputs preflightInputs(Stamp now) const;
@@ -123,6 +125,7 @@ struct Robot::Impl {
   std::uint64_t status_seq = 0;
   bool storage_ok = true;
   bool resume_pending = false;
+  bool camera_runs = false;
   std::atomic<bool> ended{false}, succeeded{false};
 };
 
@@ -175,10 +178,6 @@ void Robot::Impl::start(Executor& executor) {
   if (devices.thermal)
     warnIfFailed(devices.thermal->start(
         [this](ThermalImagePtr image) { perception.onThermal(std::move(image)); }));
-  if (devices.operator_camera && link) {
-    warnIfFailed(devices.operator_camera->start(
-        [this](RgbImagePtr image) { telemetry.onPicture(std::move(image)); }));
-  }
   executor.every(fromSeconds(1.0 / settings.arm.servo_rate_hz), "control", kPriorityControl,
                  [this](Stamp t) { controlTick(t); });
   executor.every(kMissionPeriod, "mission", kPriorityMission, [this](Stamp t) { missionTick(t); });
@@ -413,7 +412,23 @@ Scene Robot::Impl::scene(Stamp now) const {
   return scene;
 }
 
+/// Pictures cost the robot and the link more than everything else together: taken only while
+/// somebody watches.
+void Robot::Impl::runCameraOnDemand() {
+  if (!devices.operator_camera || !link) return;
+  const bool wanted = link->wanted(frames::kOperatorCamera);
+  if (wanted == camera_runs) return;
+  camera_runs = wanted;
+  if (wanted) {
+    warnIfFailed(devices.operator_camera->start(
+        [this](RgbImagePtr image) { telemetry.onPicture(std::move(image)); }));
+  } else {
+    devices.operator_camera->stop();
+  }
+}
+
 void Robot::Impl::publish(Stamp now) {
+  runCameraOnDemand();
   if (telemetry.fsmDue(now, fsm.step)) telemetry.publish(fsm);
   if (telemetry.statusDue(now)) {
     ++status_seq;
