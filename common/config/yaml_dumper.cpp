@@ -93,6 +93,7 @@ class TableWriter final : public ConfigArchive {
 
 std::string dumpYaml(const ConfigNode& root) {
   YAML::Emitter out;
+  out.SetDoublePrecision(12);  // 0.3, not 0.29999999999999999
   YamlDumper(out).map(root);
   return std::string(out.c_str()) + "\n";
 }

@@ -1,5 +1,6 @@
 #include "robot/evaluation/mission_run.h"
 
+#include <csignal>
 #include <fstream>
 #include <sstream>
 
@@ -125,10 +126,8 @@ Result<MissionRun> runMission(const MissionRunOptions& options) {
     }
   }
   run.wall_s = toSeconds(clock.now() - begin);
-  if (!world->wait(std::chrono::seconds(2))) {
-    world->signal(15);
-    (void)world->wait(std::chrono::seconds(5));
-  }
+  world->signal(SIGTERM);  // the world would stand and wait for the next robot
+  (void)world->wait(std::chrono::seconds(5));
   auto robot_report = readJson(folder.file("robot.json"), "kiln-robotd", folder.file("robotd.log"));
   if (!robot_report) return tl::make_unexpected(robot_report.error());
   auto truth = readJson(folder.file("truth.json"), "kiln-sim", folder.file("sim.log"));

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <csignal>
 #include <fstream>
 #include <sstream>
 
@@ -51,6 +52,7 @@ Result<json> measure(int seed, const RobotGeometry& robot) {
       return tl::make_unexpected(sprayed.error());
     }
   }  // says bye
+  world->signal(SIGTERM);
   (void)world->wait(std::chrono::seconds(5));
   std::ifstream in(scratch.file("truth.json"));
   const json truth = json::parse(in, nullptr, false);

@@ -69,6 +69,7 @@ void FireSprayConfig::visit(ConfigArchive& a) {
   a.field("duty", duty, "", 0.1, 1.0, "of both pumps");
   a.field("min_current_a", min_current_a, "A", 0.05, 20.0, "drawn by a running pump");
   a.field("start_timeout_s", start_timeout_s, "s", 0.5, 30.0, "until the pumps draw current");
+  a.field("idle_fault_s", idle_fault_s, "s", 0.2, 10, "pumps that stay off so long are a fault");
   a.field("off_current_a", off_current_a, "A", 0.01, 5.0, "below it a pump has stopped");
   a.field("min_start_l", min_start_l, "l", 0.0, 5.0, "a tank with less is not started");
   a.field("delivered_share", delivered_share, "", 0.1, 1.0,

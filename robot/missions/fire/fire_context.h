@@ -46,6 +46,7 @@ class FireContext {
   StowedDrive drive;
   std::optional<AimSolution>
       aim;                       ///< chosen spray pose; not kept over a restart: aiming starts anew
+  std::optional<Stamp> pumps_idle_since;  ///< while they should run
   double sweep_started_s = 0.0;  ///< mission time at which the present sweep began
 
   [[nodiscard]] WorldState& world() const { return devices.world.edit(); }

@@ -9,8 +9,13 @@ std::optional<std::string> keepSpraying(FireContext& context, Stamp now, Duratio
   const PumpTracking pumps = context.devices.pumps.tracking();
   if (pumps.no_current)
     return fmt::format("no current: {:.1f} A, {:.1f} A", pumps.current_a[0], pumps.current_a[1]);
-  const bool should_run = toSeconds(time_in_state) > context.config.spray.start_timeout_s;
-  if (should_run && !pumps.spraying)
+  if (pumps.spraying || toSeconds(time_in_state) <= context.config.spray.start_timeout_s) {
+    context.pumps_idle_since.reset();
+    return std::nullopt;
+  }
+  // One late setpoint cuts the pumps for a moment; only pumps that stay off are a fault.
+  if (!context.pumps_idle_since) context.pumps_idle_since = now;
+  if (toSeconds(now - *context.pumps_idle_since) > context.config.spray.idle_fault_s)
     return "the pumps do not run: " +
            (pumps.blocked.empty() ? std::string("no reason given") : pumps.blocked);
   return std::nullopt;
