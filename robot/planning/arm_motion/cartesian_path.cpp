@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "robot/planning/arm_motion/ur_inverse.h"
+#include "robot/planning/corner_window.h"
 
 namespace kiln {
 namespace {
@@ -11,9 +12,11 @@ namespace {
 struct PosePath {
   std::vector<double> s;
   std::vector<Eigen::Isometry3d> X;
+  std::vector<std::size_t> corners;  ///< samples at which two lines meet
 };
 
-constexpr double kNoWay = 1e-4;  // m; shorter lines are no lines
+constexpr double kRetreatSlack = 1e-3;  // m
+constexpr double kNoWay = 1e-4;         // m; shorter lines are no lines
 
 double wayBetween(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to,
                   const CartesianPathConfig& config) {
@@ -27,6 +30,7 @@ void appendLine(PosePath& path, const Eigen::Isometry3d& to, const CartesianPath
   if (length < kNoWay) return;
   const int steps = std::max(2, static_cast<int>(std::ceil(length / config.step_m)));
   const double start = path.s.back();
+  if (path.X.size() > 1) path.corners.push_back(path.X.size() - 1);
   for (int k = 1; k <= steps; ++k) {
     const double part = static_cast<double>(k) / steps;
     path.s.push_back(start + part * length);
@@ -50,15 +54,12 @@ Eigen::Isometry3d meanPose(const PosePath& path, std::size_t from, std::size_t t
   return X;
 }
 
-/// Rounds corners; the window shrinks towards both ends, so that these stay.
 PosePath rounded(const PosePath& path, const CartesianPathConfig& config) {
   PosePath out = path;
-  const auto last = static_cast<std::ptrdiff_t>(path.X.size()) - 1;
-  const auto half = static_cast<std::ptrdiff_t>(config.blend_radius_m / config.step_m);
-  for (std::ptrdiff_t k = 1; k < last; ++k) {
-    const std::ptrdiff_t w = std::min({half, k, last - k});
-    out.X[static_cast<std::size_t>(k)] =
-        meanPose(path, static_cast<std::size_t>(k - w), static_cast<std::size_t>(k + w));
+  const auto wanted = static_cast<std::size_t>(config.blend_radius_m / config.step_m);
+  const auto window = cornerWindows(path.X.size(), path.corners, wanted);
+  for (std::size_t k = 1; k + 1 < path.X.size(); ++k) {
+    if (window[k] > 0) out.X[k] = meanPose(path, k - window[k], k + window[k]);
   }
   for (std::size_t k = 1; k < out.X.size(); ++k) {
     out.s[k] = out.s[k - 1] + wayBetween(out.X[k - 1], out.X[k], config);
@@ -76,6 +77,8 @@ Result<JointPath> toJoints(const RobotGeometry& robot, const ArmCollision& colli
                            const PosePath& poses) {
   const Eigen::Isometry3d X_armbase_base = robot.X_base_armbase.pose().inverse();
   JointPath path{poses.s, {q_start}};
+  // An arm that is too near to something already must be able to retreat, but not to come nearer.
+  const double least = std::min(config.clearance_m, collision.distance(q_start) - kRetreatSlack);
   for (std::size_t k = 1; k < poses.X.size(); ++k) {
     const Vector6d& before = path.q.back();
     Vector6d best = before;
@@ -97,7 +100,7 @@ Result<JointPath> toJoints(const RobotGeometry& robot, const ArmCollision& colli
                        std::isfinite(best_step) ? "a joint would have to jump" : "out of reach");
     }
     const double room = collision.distance(best);
-    if (room < config.clearance_m) {
+    if (room < least) {
       return makeError(ErrorCode::Refused,
                        "the line comes within {:.0f} mm at flange ({:.2f}, {:.2f}, {:.2f}): {}",
                        1e3 * room, p.x(), p.y(), p.z(), collision.clearance(best).what);
@@ -120,12 +123,12 @@ Result<std::vector<JointPath>> cartesianPaths(
     const RobotGeometry& robot, const ArmCollision& collision, const CartesianPathConfig& config,
     const Vector6d& q_start, const std::vector<Eigen::Isometry3d>& X_base_flange, bool blend) {
   std::vector<PosePath> lines;
-  PosePath line{{0.0}, {robot.X_base_flange(q_start)}};
+  PosePath line{{0.0}, {robot.X_base_flange(q_start)}, {}};
   for (const Eigen::Isometry3d& to : X_base_flange) {
     appendLine(line, to, config);
     if (!blend) {
       lines.push_back(line);
-      line = PosePath{{0.0}, {to}};
+      line = PosePath{{0.0}, {to}, {}};
     }
   }
   if (blend) lines.push_back(rounded(line, config));

@@ -25,7 +25,8 @@ struct CartesianPathConfig {
 /// pose.
 /// @return Error{Degenerate} where a line cannot be reached or turns too fast (singularity),
 /// Error{Refused} where it
-///         comes too near to something: the sentence says what and where.
+///         comes too near to something: the sentence says what and where. An arm that starts too
+///         near may retreat.
 [[nodiscard]] Result<std::vector<JointPath>> cartesianPaths(
     const RobotGeometry& robot, const ArmCollision& collision, const CartesianPathConfig& config,
     const Vector6d& q_start, const std::vector<Eigen::Isometry3d>& X_base_flange, bool blend);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "robot/planning/arm_motion/shapes.h"
+#include "robot/planning/corner_window.h"
 
 namespace kiln {
 namespace {
@@ -58,23 +59,20 @@ void BasePath::appendLine(const Pose2& to, const BasePathConfig& config) {
   }
 }
 
-/// A sliding mean over the way turns corners into parabolas; it shrinks towards both ends, so that
-/// these stay.
+/// A sliding mean over the way turns corners into parabolas.
 void BasePath::roundCorners(const BasePathConfig& config) {
   const std::vector<Pose2> raw = poses_;
-  const auto last = static_cast<std::ptrdiff_t>(raw.size()) - 1;
-  const auto half = static_cast<std::ptrdiff_t>(config.corner_radius_m / config.step_m);
-  for (std::ptrdiff_t k = 1; k < last; ++k) {
-    const std::ptrdiff_t w = std::min({half, k, last - k});
+  const auto wanted = static_cast<std::size_t>(config.corner_radius_m / config.step_m);
+  const auto window = cornerWindows(raw.size(), waypoint_sample_, wanted);
+  for (std::size_t k = 1; k + 1 < raw.size(); ++k) {
     Pose2 mean;
-    for (std::ptrdiff_t i = k - w; i <= k + w; ++i) {
-      const Pose2& p = raw[static_cast<std::size_t>(i)];
-      mean.x_m += p.x_m;
-      mean.y_m += p.y_m;
-      mean.yaw_rad += p.yaw_rad;
+    for (std::size_t i = k - window[k]; i <= k + window[k]; ++i) {
+      mean.x_m += raw[i].x_m;
+      mean.y_m += raw[i].y_m;
+      mean.yaw_rad += raw[i].yaw_rad;
     }
-    const double n = static_cast<double>(2 * w + 1);
-    poses_[static_cast<std::size_t>(k)] = {mean.x_m / n, mean.y_m / n, mean.yaw_rad / n};
+    const double n = static_cast<double>(2 * window[k] + 1);
+    poses_[k] = {mean.x_m / n, mean.y_m / n, mean.yaw_rad / n};
   }
   for (std::size_t k = 1; k < poses_.size(); ++k) {
     s_[k] = s_[k - 1] + wayBetween(poses_[k - 1], poses_[k], config);

@@ -51,7 +51,8 @@ TEST_F(CartesianPathTest, TheWholeSearchRectangleIsOneSmoothLineAtEachFirePlace)
     const auto paths = cartesianPaths(robot, collision, {}, q0, raster, true);
     ASSERT_TRUE(paths.has_value()) << place.name << ": " << paths.error();
     ASSERT_EQ(paths->size(), 1u);
-    // 5 x 0.7 m and 4 x 0.1 m less eight rounded corners, and the camera stays in its plane looking ahead.
+    // 5 x 0.7 m and 4 x 0.1 m less eight rounded corners, and the camera stays in its plane looking
+    // ahead.
     EXPECT_NEAR(paths->front().s.back(), 3.9, 0.2);
     EXPECT_LT(paths->front().s.back(), 3.9);
     for (const Vector6d& q : paths->front().q) {
@@ -110,6 +111,42 @@ TEST_F(CartesianPathTest, SaysWhyALineCannotBeFollowed) {
   ASSERT_FALSE(hit.has_value());
   EXPECT_EQ(hit.error().code, ErrorCode::Refused);
   EXPECT_NE(hit.error().message.find("cupboard"), std::string::npos) << hit.error();
+}
+
+TEST_F(CartesianPathTest, AnArmThatIsTooNearMayRetreatButNotComeNearer) {
+  const Vector6d q0 = postureFor(flangeForCamera(robot, {1.25, 0, 1.1}));
+  BoxConfig box;
+  box.name = "box";
+  box.center.xyz_m = {1.45, 0, 1.1};  // its face 1 cm inside the head's
+  box.size_m = {0.32, 0.3, 0.3};
+  collision.setScene({box}, Pose2{});
+  ASSERT_LT(collision.distance(q0), 0.02);
+  const auto back =
+      cartesianPaths(robot, collision, {}, q0, {flangeForCamera(robot, {1.15, 0, 1.1})}, false);
+  EXPECT_TRUE(back.has_value()) << back.error();
+  const auto ahead =
+      cartesianPaths(robot, collision, {}, q0, {flangeForCamera(robot, {1.28, 0, 1.1})}, false);
+  EXPECT_FALSE(ahead.has_value());
+}
+
+TEST_F(CartesianPathTest, SmallFiguresKeepTheirShapeWhenBlended) {
+  // An hourglass of 6 cm, smaller than twice the blend radius.
+  const Vector6d q0 = postureFor(flangeForCamera(robot, {1.25, -0.03, 1.07}));
+  const auto paths = cartesianPaths(
+      robot, collision, {}, q0,
+      {flangeForCamera(robot, {1.25, 0.03, 1.07}), flangeForCamera(robot, {1.25, -0.03, 1.13}),
+       flangeForCamera(robot, {1.25, 0.03, 1.13})},
+      true);
+  ASSERT_TRUE(paths.has_value()) << paths.error();
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(INFINITY), high = -low;
+  for (const Vector6d& q : paths->front().q) {
+    const Eigen::Vector3d p =
+        (robot.X_base_flange(q) * robot.X_flange_thermal.pose()).translation();
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  EXPECT_GT(high.y() - low.y(), 0.045);
+  EXPECT_GT(high.z() - low.z(), 0.055);
 }
 
 TEST_F(CartesianPathTest, TheNozzleComesToItsWantedPose) {
