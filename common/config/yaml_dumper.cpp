@@ -10,7 +10,7 @@ class YamlDumper final : public ConfigArchive {
  public:
   explicit YamlDumper(YAML::Emitter& out) : out_(out) {}
   void field(const char* name, double& value, const char*, double, double, const char*) override {
-    entry(name, value);
+    entry(name, shortest(value));
   }
   void field(const char* name, int& value, const char*, int, int, const char*) override {
     entry(name, value);
@@ -19,7 +19,9 @@ class YamlDumper final : public ConfigArchive {
   void field(const char* name, std::string& value, const char*) override { entry(name, value); }
   void field(const char* name, std::vector<double>& value, const char*, double, double, const char*,
              bool) override {
-    out_ << YAML::Key << name << YAML::Value << YAML::Flow << value;
+    out_ << YAML::Key << name << YAML::Value << YAML::Flow << YAML::BeginSeq;
+    for (const double v : value) out_ << shortest(v);
+    out_ << YAML::EndSeq;
   }
   void sectionNode(const char* name, const ConfigNode& child, const char*) override {
     out_ << YAML::Key << name << YAML::Value;
@@ -38,6 +40,8 @@ class YamlDumper final : public ConfigArchive {
   }
 
  private:
+  /// The shortest text that reads back as the same number: 0.3, not 0.29999999999999999.
+  static std::string shortest(double value) { return fmt::format("{}", value); }
   template <class T>
   void entry(const char* name, const T& value) {
     out_ << YAML::Key << name << YAML::Value << value;
@@ -93,7 +97,6 @@ class TableWriter final : public ConfigArchive {
 
 std::string dumpYaml(const ConfigNode& root) {
   YAML::Emitter out;
-  out.SetDoublePrecision(12);  // 0.3, not 0.29999999999999999
   YamlDumper(out).map(root);
   return std::string(out.c_str()) + "\n";
 }
