@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/config/resources.h"
+#include "common/core/log.h"
 #include "common/core/thread_executor.h"
 #include "robot/app/robot.h"
 #include "robot/evaluation/child_process.h"
@@ -171,12 +172,14 @@ Result<LossTimes> timeLosses(const WatchedRobot& watched) {
 }  // namespace
 
 Result<EvaluationResult> evaluateStop(const SweepOptions&) {
+  setLogLevel(5);  // a hundred stops are a thousand lines
   auto watched = WatchedRobot::start();
   if (!watched) return tl::make_unexpected(watched.error());
   auto person = ScriptedOperator::connect((*watched)->endpoint(), "evaluation", seconds(10));
   if (!person) return tl::make_unexpected(person.error());
   auto latched = timeStops(**person);
   if (!latched) return tl::make_unexpected(latched.error());
+  if (auto over = (*person)->takeOver(); !over) return tl::make_unexpected(over.error());
   if (auto released = (*person)->command(ReleaseLease{}); !released)
     return tl::make_unexpected(released.error());
   auto losses = timeLosses(**watched);
