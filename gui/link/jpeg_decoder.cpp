@@ -53,6 +53,16 @@ RgbImagePtr JpegDecoder::decode(const JpegImage& picture) {
   return out;
 }
 
+void JpegDecoder::reportFailure(const JpegImage& picture) {
+  auto empty =
+      std::make_shared<RgbImage>();  // tells the view that pictures come but cannot be read
+  empty->stamp = picture.stamp;
+  empty->seq = picture.seq;
+  empty->frame = picture.frame;
+  done_(std::move(empty));
+  failed_("camera " + picture.frame + " sent a picture that is no JPEG of its size");
+}
+
 void JpegDecoder::run(std::stop_token stop) {
   while (!stop.stop_requested()) {
     std::map<std::string, JpegImagePtr> pictures;
@@ -65,7 +75,7 @@ void JpegDecoder::run(std::stop_token stop) {
       if (auto image = decode(*picture))
         done_(std::move(image));
       else
-        failed_("camera " + camera + " sent a picture that is no JPEG of its size");
+        reportFailure(*picture);
     }
   }
 }

@@ -13,7 +13,8 @@ namespace kiln::gui {
 
 /// Decodes camera pictures on a thread of its own, newest first per camera; a picture that arrives
 /// while another of its camera waits replaces it. put() is thread-safe; `done` and `failed` run on
-/// the decoder's thread.
+/// the decoder's thread. A picture that cannot be decoded is handed on without pixels and reported
+/// to `failed`.
 class JpegDecoder {
  public:
   JpegDecoder(std::function<void(RgbImagePtr)> done,
@@ -27,6 +28,7 @@ class JpegDecoder {
 
  private:
   void run(std::stop_token stop);
+  void reportFailure(const JpegImage& picture);
   std::function<void(RgbImagePtr)> done_;
   std::function<void(const std::string&)> failed_;
   std::mutex mutex_;

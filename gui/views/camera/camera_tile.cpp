@@ -1,8 +1,12 @@
 #include "gui/views/camera/camera_tile.h"
 
+#include <QButtonGroup>
+#include <QHBoxLayout>
 #include <QPainter>
+#include <QToolButton>
 #include <algorithm>
 
+#include "common/geom/frames.h"
 #include "gui/widgets/hatch.h"
 
 namespace kiln::gui {
@@ -11,41 +15,99 @@ constexpr int kNoteMargin_px = 14;
 }
 
 CameraTile::CameraTile(const Ui& ui, StationModels& models, QWidget* parent)
-    : Tile(ui, tr("Camera · operator"), parent),
+    : Tile(ui, tr("Camera"), parent),
       ui_(ui),
       models_(models),
-      picture_(new CameraPicture(ui, feed_)) {
+      picture_(new CameraPicture(ui)),
+      choice_(new QButtonGroup(this)) {
   setContent(picture_, true);
-  connect(&models_.link, &Link::image, this,
-          [this](const RgbImagePtr& image) { feed_.accept(image, ui_.clock.now()); });
+  addHeaderWidget(makeChoice());
+  connect(&models_.link, &Link::image, this, &CameraTile::accept);
   connect(&models_.camera, &Model::changed, this, &CameraTile::refresh);
+  connect(&models_.head_camera, &Model::changed, this, &CameraTile::refresh);
   connect(&models_, &StationModels::aged, this, &CameraTile::refresh);
+  connect(&ui_.theme, &Theme::changed, this, &CameraTile::restyle);
+  showCamera(Operator);
+}
+
+void CameraTile::accept(const RgbImagePtr& image) {
+  if (!image) return;
+  feeds_[image->frame == frames::kRgb ? Head : Operator].accept(image, ui_.clock.now());
+}
+
+const CameraModel& CameraTile::model(Camera camera) const {
+  return camera == Head ? models_.head_camera : models_.camera;
+}
+
+QWidget* CameraTile::makeChoice() {
+  auto* bar = new QWidget;
+  auto* row = new QHBoxLayout(bar);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->setSpacing(1);
+  for (const Camera camera : {Operator, Head}) {
+    auto* button = new QToolButton;
+    button->setText(camera == Operator ? tr("operator") : tr("head"));
+    button->setToolTip(camera == Operator ? tr("rear top, over the deck")
+                                          : tr("at the end of the arm"));
+    button->setCheckable(true);
+    button->setAutoRaise(true);
+    button->setFocusPolicy(Qt::NoFocus);
+    choice_->addButton(button, camera);
+    row->addWidget(button);
+  }
+  connect(choice_, &QButtonGroup::idClicked, this,
+          [this](int id) { showCamera(static_cast<Camera>(id)); });
+  return bar;
+}
+
+void CameraTile::showCamera(Camera camera) {
+  shown_ = camera;
+  restyle();
   refresh();
 }
 
 void CameraTile::refresh() {
-  const double age_s = models_.camera.ageS();
-  feed_.judge(ui_.clock.now(), age_s);
+  for (const Camera camera : {Operator, Head})
+    feeds_[camera].judge(ui_.clock.now(), model(camera).ageS());
+  const CameraFeed& feed = feeds_[shown_];
+  const CameraModel& source = model(shown_);
   // The picture crosses itself out with its own words, so the tile's general hatch stays off.
-  setAge(age_s, feed_.state() == CameraState::Live        ? AgeLevel::Fresh
-                : feed_.state() == CameraState::NoPicture ? AgeLevel::None
-                                                          : AgeLevel::Amber);
-  const QString rate =
-      models_.camera.hasData() ? tr("%1 Hz").arg(models_.camera.rateHz(), 0, 'f', 1) : QString();
-  setInfo(feed_.state() == CameraState::Late ? tr("%1 · late").arg(rate) : rate);
-  picture_->update();
+  setAge(source.ageS(), feed.state() == CameraState::Live        ? AgeLevel::Fresh
+                        : feed.state() == CameraState::NoPicture ? AgeLevel::None
+                                                                 : AgeLevel::Amber);
+  const QString rate = source.hasData() ? tr("%1 Hz").arg(source.rateHz(), 0, 'f', 1) : QString();
+  setInfo(feed.state() == CameraState::Late ? tr("%1 · late").arg(rate) : rate);
+  picture_->show(feed);
 }
 
-CameraPicture::CameraPicture(const Ui& ui, const CameraFeed& feed, QWidget* parent)
-    : QWidget(parent), ui_(ui), feed_(feed) {
+void CameraTile::restyle() {
+  const Palette& p = ui_.theme.colors();
+  for (QAbstractButton* button : choice_->buttons()) {
+    const bool on = choice_->id(button) == shown_;
+    button->setChecked(on);
+    button->setFont(ui_.theme.font(TextRole::Small));
+    button->setStyleSheet(QStringLiteral("QToolButton { border: none; padding: 1px 5px; "
+                                         "border-radius: 3px; color: %1; background: %2; }")
+                              .arg(on ? p.text.name() : p.dim.name(),
+                                   on ? p.raised.name() : QStringLiteral("transparent")));
+  }
+}
+
+CameraPicture::CameraPicture(const Ui& ui, QWidget* parent) : QWidget(parent), ui_(ui) {
   connect(&ui_.theme, &Theme::changed, this, qOverload<>(&QWidget::update));
+}
+
+void CameraPicture::show(const CameraFeed& feed) {
+  feed_ = &feed;
+  update();
 }
 
 void CameraPicture::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   const Palette& p = ui_.theme.colors();
   painter.fillRect(rect(), p.sunk);
-  const QImage& picture = feed_.picture();
+  if (!feed_) return;
+  const QImage& picture = feed_->picture();
   QRectF area = rect();
   if (!picture.isNull()) {
     const QSizeF fitted = QSizeF(picture.size()).scaled(rect().size(), Qt::KeepAspectRatio);
@@ -54,9 +116,9 @@ void CameraPicture::paintEvent(QPaintEvent*) {
     painter.setRenderHint(QPainter::SmoothPixmapTransform);
     painter.drawImage(area, picture);
   }
-  if (feed_.crossedOut()) paintCrossedOut(painter, area);
-  if (feed_.crossedOut() || feed_.state() == CameraState::NoPicture)
-    paintNote(painter, rect(), feed_.headline(), feed_.advice());
+  if (feed_->crossedOut()) paintCrossedOut(painter, area);
+  if (feed_->crossedOut() || feed_->state() == CameraState::NoPicture)
+    paintNote(painter, rect(), feed_->headline(), feed_->advice());
 }
 
 void CameraPicture::paintCrossedOut(QPainter& painter, const QRectF& area) const {
@@ -76,7 +138,7 @@ void CameraPicture::paintCrossedOut(QPainter& painter, const QRectF& area) const
 void CameraPicture::paintNote(QPainter& painter, const QRectF& area, const QString& headline,
                               const QString& advice) const {
   const Palette& p = ui_.theme.colors();
-  const bool quiet = feed_.state() == CameraState::NoPicture;
+  const bool quiet = feed_->state() == CameraState::NoPicture;
   const QFont strong = ui_.theme.font(TextRole::Strong), small = ui_.theme.font(TextRole::Small);
   const QFontMetricsF strong_metrics(strong), small_metrics(small);
   const double w =

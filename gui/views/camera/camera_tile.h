@@ -4,23 +4,35 @@
 #include "gui/views/camera/camera_feed.h"
 #include "gui/widgets/tile.h"
 
+class QButtonGroup;
+
 namespace kiln::gui {
 
 class CameraPicture;
 
-/// The operator camera as a tile.
+/// The cameras as a tile: the operator's at the rear top, or the head's. Both streams are judged
+/// all the time; one is shown.
 class CameraTile : public Tile {
   Q_OBJECT
  public:
+  enum Camera { Operator, Head };
   CameraTile(const Ui& ui, StationModels& models, QWidget* parent = nullptr);
-  [[nodiscard]] const CameraFeed& feed() const { return feed_; }
+  [[nodiscard]] const CameraFeed& feed(Camera camera) const { return feeds_[camera]; }
+  [[nodiscard]] Camera shown() const { return shown_; }
+  void showCamera(Camera camera);
 
  private:
+  void accept(const RgbImagePtr& image);
   void refresh();
+  void restyle();
+  [[nodiscard]] const CameraModel& model(Camera camera) const;
+  QWidget* makeChoice();
   Ui ui_;
   StationModels& models_;
-  CameraFeed feed_;
+  CameraFeed feeds_[2];
+  Camera shown_ = Operator;
   CameraPicture* picture_;
+  QButtonGroup* choice_;
 };
 
 /// The picture alone: keeps its aspect; crossed out with the reason when nothing may be steered by
@@ -28,7 +40,9 @@ class CameraTile : public Tile {
 class CameraPicture : public QWidget {
   Q_OBJECT
  public:
-  CameraPicture(const Ui& ui, const CameraFeed& feed, QWidget* parent = nullptr);
+  explicit CameraPicture(const Ui& ui, QWidget* parent = nullptr);
+  /// @param feed  outlives this widget, or the next call.
+  void show(const CameraFeed& feed);
   [[nodiscard]] QSize minimumSizeHint() const override { return {180, 100}; }
 
  protected:
@@ -39,7 +53,7 @@ class CameraPicture : public QWidget {
   void paintNote(QPainter& painter, const QRectF& area, const QString& headline,
                  const QString& advice) const;
   Ui ui_;
-  const CameraFeed& feed_;
+  const CameraFeed* feed_ = nullptr;
 };
 
 }  // namespace kiln::gui

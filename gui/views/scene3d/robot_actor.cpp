@@ -51,7 +51,6 @@ class RobotActor final : public SceneActor {
   RobotActor(vtkRenderer& renderer, const RobotShape& shape) : shape_(shape) {
     for (const RobotPart& part : shape_.parts()) {
       actors_.push_back(addActor(renderer, meshOf(part)));
-      actors_.back()->GetProperty()->SetDiffuse(0.75);
       const bool box = part.form == RobotPart::Form::Box;
       if (box) {
         actors_.back()->GetProperty()->SetInterpolationToFlat();
@@ -80,7 +79,8 @@ class RobotActor final : public SceneActor {
     setColor(*actors_[i], agedColor(colorOf(shape_.parts()[i].role, colors), freshness, colors));
     const Rgb edge = agedColor(colors.body_edge, freshness, colors);
     property.SetEdgeColor(edge.r / 255.0, edge.g / 255.0, edge.b / 255.0);
-    property.SetAmbient(ghost ? 0.9 : 0.25);
+    property.SetAmbient(ghost ? 0.85 : 0.25);
+    property.SetDiffuse(ghost ? 0.15 : 0.75);
     property.SetOpacity(ghost ? kGhostOpacity : 1.0);
   }
 

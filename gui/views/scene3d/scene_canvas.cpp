@@ -16,6 +16,7 @@ SceneCanvas::SceneCanvas(const Ui& ui, const RobotShape& shape, Config config, b
   setAttribute(Qt::WA_OpaquePaintEvent);
   setFocusPolicy(Qt::ClickFocus);
   pace_.setSingleShot(true);
+  pace_.setTimerType(Qt::PreciseTimer);
   connect(&pace_, &QTimer::timeout, this, &SceneCanvas::drawNow);
   connect(&ui_.theme, &Theme::changed, this, &SceneCanvas::want);
   if (open_gl) {
@@ -119,7 +120,7 @@ void SceneCanvas::keyPressEvent(QKeyEvent* event) {
   switch (event->key()) {
     case Qt::Key_F:
       return setCameraMode(OrbitCamera::Mode::Follow);
-    case Qt::Key_T:
+    case Qt::Key_O:
       return setCameraMode(OrbitCamera::Mode::Top);
     case Qt::Key_G:
       return setCameraMode(OrbitCamera::Mode::Free);

@@ -13,7 +13,7 @@ namespace kiln::gui {
 /// Shows a scene snapshot: in 3D drawn by a render thread, or from above with QPainter where there
 /// is no OpenGL. Draws only on new content or a moved camera, at most `max_fps` times a second, one
 /// picture under way at a time. Mouse: left drag orbits, right or middle drag moves, wheel zooms,
-/// double click resets. Keys: F follow, T top, G free.
+/// double click resets. Keys: F follow, O overhead, G free.
 class SceneCanvas : public QWidget {
   Q_OBJECT
  public:

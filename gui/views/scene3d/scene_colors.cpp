@@ -35,9 +35,9 @@ SceneColors darkSolids() {
 SceneColors lightSolids() {
   SceneColors c;
   c.dark = false;
-  c.wall = rgbFromHex(0xa3acb3);
+  c.wall = rgbFromHex(0xc3cace);
   c.wall_edge = rgbFromHex(0x9aa3aa);
-  c.furniture = rgbFromHex(0xb3aa9a);
+  c.furniture = rgbFromHex(0xc9c0b0);
   c.body = rgbFromHex(0xaab4bb);
   c.body_edge = rgbFromHex(0x4a5258);
   c.arm = rgbFromHex(0x6b747b);

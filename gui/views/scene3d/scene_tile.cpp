@@ -97,7 +97,7 @@ QWidget* SceneTile::makeCameraButtons() {
   } kButtons[] = {
       {tr("follow"), tr("camera keeps the robot in the middle (F); drag to look from another side"),
        Mode::Follow},
-      {tr("top"), tr("straight down, X up (T)"), Mode::Top},
+      {tr("top"), tr("straight down, X up (O)"), Mode::Top},
       {tr("free"), tr("camera stays where it is (G)"), Mode::Free}};
   for (const auto& b : kButtons) {
     if (!canvas_->usesOpenGl() && b.mode != Mode::Top) continue;

@@ -9,8 +9,9 @@
 
 namespace kiln::gui {
 namespace {
+constexpr int kWordButton_px = 40, kJointButton_px = 17;
 constexpr int kFirstJoint = 2;  // ids of the mode buttons: 0 Move, 1 Turn, 2..7 joints 1..6
-}
+}  // namespace
 
 JogPanel::JogPanel(const Ui& ui, HoldToRun& hold, QWidget* parent)
     : QWidget(parent),
@@ -55,11 +56,16 @@ void JogPanel::build() {
   grid->setVerticalSpacing(4);
   grid->addWidget(drive_, 0, 0, Qt::AlignCenter);
   grid->addWidget(turn_, 1, 0, Qt::AlignCenter);
-  grid->addWidget(arm_, 0, 2, Qt::AlignCenter);
-  grid->addWidget(up_, 0, 3, Qt::AlignCenter);
-  grid->addWidget(buildArmModes(), 1, 2, 1, 2, Qt::AlignCenter);
+  auto* arm = new QHBoxLayout;
+  arm->setSpacing(8);
+  arm->addStretch(1);
+  arm->addWidget(arm_);
+  arm->addWidget(up_);
+  arm->addStretch(1);
+  grid->addLayout(arm, 0, 2);
+  grid->addWidget(buildArmModes(), 1, 2, Qt::AlignCenter);
   grid->addWidget(drive_caption_, 2, 0, Qt::AlignCenter);
-  grid->addWidget(arm_caption_, 2, 2, 1, 2, Qt::AlignCenter);
+  grid->addWidget(arm_caption_, 2, 2, Qt::AlignCenter);
   grid->setColumnMinimumWidth(1, 2);
 }
 
@@ -75,6 +81,7 @@ QWidget* JogPanel::buildArmModes() {
     button->setCheckable(true);
     button->setAutoRaise(true);
     button->setFocusPolicy(Qt::NoFocus);
+    button->setFixedWidth(id < kFirstJoint ? kWordButton_px : kJointButton_px);
     modes_->addButton(button, id);
     row->addWidget(button);
   };

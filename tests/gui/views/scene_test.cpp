@@ -1,0 +1,201 @@
+#include <QPainter>
+
+#include "gui/views/scene3d/orbit_camera.h"
+#include "gui/views/scene3d/robot_shape.h"
+#include "gui/views/scene3d/scene_colors.h"
+#include "gui/views/scene3d/scene_labels.h"
+#include "gui/views/scene3d/scene_state.h"
+#include "gui/views/scene3d/top_view.h"
+#include "tests/gui/views/sample_world.h"
+#include "tests/gui/views/station_fixture.h"
+
+namespace kiln::gui {
+namespace {
+
+Stamp at(double seconds) { return Stamp{fromSeconds(seconds)}; }
+
+struct Fixture {
+  SampleWorld world;
+  SceneState state{{}, world.robot()};
+};
+
+RobotStatus statusAt(double seconds, double x_m, int resets = 0) {
+  RobotStatus s;
+  s.stamp = at(seconds);
+  s.X_map_base = {x_m, 0, 0};
+  s.resets = resets;
+  return s;
+}
+
+std::shared_ptr<PointCloud> onePoint(const char* frame, double seconds) {
+  auto cloud = std::make_shared<PointCloud>();
+  cloud->frame = frame;
+  cloud->stamp = at(seconds);
+  cloud->push(1, 0, 0, 0, 0, 0);
+  return cloud;
+}
+
+TEST(SceneState, PlacesACloudWhereTheRobotWasWhenItWasTaken) {
+  Fixture f;
+  f.state.setStatus(statusAt(1.0, 5.0));
+  f.state.setStatus(statusAt(2.0, 6.0));
+  f.state.setStatus(statusAt(3.0, 7.0));
+  f.state.setCloud(onePoint("base", 1.9));
+  EXPECT_DOUBLE_EQ(f.state.snapshot().X_map_cloud.translation().x(), 6.0);
+  f.state.setCloud(onePoint("map", 1.9));
+  EXPECT_DOUBLE_EQ(f.state.snapshot().X_map_cloud.translation().x(), 0.0);
+}
+
+TEST(SceneState, PutsALidarCloudAtTheHeadOfTheArm) {
+  Fixture f;
+  RobotStatus s = statusAt(1.0, 2.0);
+  s.arm.q = RobotGeometry::radians(f.world.robot().q_drive_deg);
+  f.state.setStatus(s);
+  f.state.setCloud(onePoint("lidar", 1.0));
+  const Eigen::Isometry3d expected = toIsometry(s.X_map_base) *
+                                     f.world.robot().X_base_flange(s.arm.q) *
+                                     f.world.robot().X_flange_lidar.pose();
+  EXPECT_TRUE(f.state.snapshot().X_map_cloud.isApprox(expected));
+}
+
+TEST(SceneState, RefusesACloudInAnUnknownFrameAndKeepsTheLast) {
+  Fixture f;
+  f.state.setCloud(onePoint("map", 1.0));
+  const PointCloudPtr before = f.state.snapshot().cloud;
+  f.state.setCloud(onePoint("odom", 2.0));
+  EXPECT_EQ(f.state.snapshot().cloud, before);
+  EXPECT_NE(f.state.cloudRefusal().find("odom"), std::string::npos);
+}
+
+TEST(SceneState, StartsANewTrailAfterAReset) {
+  Fixture f;
+  f.state.setStatus(statusAt(1.0, 0.0));
+  f.state.setStatus(statusAt(1.1, 0.01));  // less than the trail's step: not kept
+  f.state.setStatus(statusAt(1.2, 0.20));
+  ASSERT_EQ(f.state.snapshot().driven.size(), 1U);
+  EXPECT_EQ(f.state.snapshot().driven[0].size(), 2U);
+  f.state.setStatus(statusAt(2.0, 0.0, 1));
+  EXPECT_EQ(f.state.snapshot().driven.size(), 2U);
+}
+
+TEST(SceneState, BoundsTheTrail) {
+  Fixture f;
+  SceneState state({.trail_points = 50}, f.world.robot());
+  for (int i = 0; i < 200; ++i) state.setStatus(statusAt(i, 0.1 * i));
+  ASSERT_EQ(state.snapshot().driven.size(), 1U);
+  EXPECT_EQ(state.snapshot().driven[0].size(), 50U);
+  EXPECT_NEAR(state.snapshot().driven[0].back().x(), 19.9, 1e-9);
+}
+
+TEST(SceneState, IgnoresAPoseThatIsNoNumber) {
+  Fixture f;
+  f.state.setStatus(statusAt(1.0, NAN));
+  EXPECT_FALSE(f.state.snapshot().robot_known);
+}
+
+TEST(SceneState, LayersAgeAtTheirLimits) {
+  Fixture f;
+  const auto freshness = [&](double age_s) {
+    f.state.setAge(SceneLayer::Lidar, age_s);
+    return f.state.snapshot().layer(SceneLayer::Lidar).freshness;
+  };
+  EXPECT_EQ(freshness(-1), Freshness::Missing);
+  EXPECT_EQ(freshness(1.49), Freshness::Fresh);
+  EXPECT_EQ(freshness(1.5), Freshness::Aging);
+  EXPECT_EQ(freshness(3.0), Freshness::Stale);
+}
+
+TEST(OrbitCamera, LooksAtTheRobotAndKeepsItWhileItDrives) {
+  OrbitCamera camera;
+  camera.reset({3, 4, 0});
+  const auto middle = camera.project({3, 4, 0.6}, 800, 600);
+  ASSERT_TRUE(middle);
+  EXPECT_NEAR(middle->x(), 400, 1e-6);
+  EXPECT_NEAR(middle->y(), 300, 1e-6);
+  camera.robotAt({9, -2, 0});
+  EXPECT_NEAR(camera.project({9, -2, 0.6}, 800, 600)->x(), 400, 1e-6);
+  camera.pan(50, 0, 600);
+  EXPECT_EQ(camera.mode(), OrbitCamera::Mode::Free);
+  camera.robotAt({0, 0, 0});
+  EXPECT_NEAR(camera.project({9, -2, 0.6}, 800, 600)->x(), 450,
+              1e-6);  // moved with the mouse, and stayed
+}
+
+TEST(OrbitCamera, TopHasMapXUpAndYToTheLeft) {
+  OrbitCamera camera;
+  camera.setMode(OrbitCamera::Mode::Top);
+  camera.robotAt({0, 0, 0});
+  const auto ahead = camera.project({1, 0, 0}, 800, 600),
+             left = camera.project({0, 1, 0}, 800, 600);
+  ASSERT_TRUE(ahead && left);
+  EXPECT_LT(ahead->y(), 300);
+  EXPECT_NEAR(ahead->x(), 400, 1e-6);
+  EXPECT_LT(left->x(), 400);
+}
+
+TEST(OrbitCamera, DoesNotProjectWhatIsBehindIt) {
+  OrbitCamera camera;
+  camera.reset({0, 0, 0});
+  EXPECT_FALSE(camera.project(2.0 * camera.position() - camera.target(), 800, 600));
+}
+
+TEST(RobotShape, HasAPoseForEveryPartAndMovesHeadAndWheels) {
+  const SampleWorld world;
+  const RobotShape shape(world.robot());
+  Vector6d q = RobotGeometry::radians(world.robot().q_drive_deg);
+  const auto rest = shape.poses(q, {});
+  ASSERT_EQ(rest.size(), shape.parts().size());
+  q[0] += 0.5;
+  const auto moved = shape.poses(q, {0.3, 0, 0, 0});
+  const std::size_t head = rest.size() - 2, first_wheel = world.robot().body.size();
+  EXPECT_GT((moved[head].translation() - rest[head].translation()).norm(), 0.1);
+  EXPECT_NEAR(rotationAngle(rest[first_wheel].inverse() * moved[first_wheel]), 0.3, 1e-9);
+  EXPECT_TRUE(moved[first_wheel + 1].isApprox(rest[first_wheel + 1]));
+  // The nozzle ends where the jet begins.
+  const Eigen::Vector3d exit =
+      (world.robot().X_base_flange(q) * world.robot().X_flange_nozzle.pose()).translation();
+  const RobotPart& nozzle = shape.parts().back();
+  EXPECT_LT((moved.back() * Eigen::Vector3d(0, 0, 0.5 * nozzle.size.z()) - exit).norm(), 1e-9);
+}
+
+TEST(FireLabel, StatesRangeSpreadPeakAndViews) {
+  FireEstimate fire;
+  fire.place = "place 1";
+  fire.range_m = 0.86;
+  fire.covariance =
+      Eigen::Vector3d(1e-4, 2.5e-5, 2.5e-5).asDiagonal();  // 1 cm standard deviation at most
+  fire.peak_k = 273.15 + 127;
+  fire.views = 31;
+  EXPECT_EQ(fireLabel(fire).title, QString("place 1 · 0.86 m · ±2.0 cm"));
+  EXPECT_TRUE(fireLabel(fire).detail.startsWith("127 °C peak, 31 views"));
+  EXPECT_TRUE(fireLabel(fire).detail.contains("×4"));  // 2 cm drawn as 8 cm
+  fire.covariance.setConstant(NAN);
+  EXPECT_TRUE(fireLabel(fire).title.contains("± unknown"));
+}
+
+TEST_F(StationTest, TopViewDrawsTheRobotAndHidesALayer) {
+  Fixture f;
+  const RobotStatus robot = f.world.status(at(1), 9.0);
+  f.state.setStatus(robot);
+  f.state.setAge(SceneLayer::Robot, 0.0);
+  OrbitCamera camera;
+  camera.setMode(OrbitCamera::Mode::Top);
+  camera.robotAt({robot.X_map_base.x_m, robot.X_map_base.y_m, 0});
+  const RobotShape shape(f.world.robot());
+  const SceneColors colors = SceneColors::of(theme);
+  const auto draw = [&] {
+    QImage image(400, 300, QImage::Format_RGB32);
+    QPainter painter(&image);
+    paintTopView(painter, f.state.snapshot(), camera, colors, shape, image.size());
+    return image;
+  };
+  const QImage shown = draw();
+  f.state.setVisible(SceneLayer::Robot, false);
+  const QImage hidden = draw();
+  EXPECT_NE(shown, hidden);
+  EXPECT_NE(shown.pixel(205, 150), qRgb(colors.ground.r, colors.ground.g, colors.ground.b));
+  EXPECT_EQ(hidden.pixel(205, 155), qRgb(colors.ground.r, colors.ground.g, colors.ground.b));
+}
+
+}  // namespace
+}  // namespace kiln::gui
