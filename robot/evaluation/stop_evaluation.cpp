@@ -145,12 +145,17 @@ struct LossTimes {
   std::vector<double> ramp_s, pump_s;
 };
 
-Result<LossTimes> timeLosses(const WatchedRobot& watched) {
+Result<LossTimes> timeLosses(const WatchedRobot& watched, ScriptedOperator& person) {
   constexpr double kJog_mps = 0.2;
   LossTimes times;
+  const auto leaseFree = [&] {  // a killed client holds it until it expires
+    return person.waitFor("the dead client's lease to expire", seconds(10),
+                          [](const auto& v) { return v.status->lease.holder_client.empty(); });
+  };
   const auto speed = [&] { return std::abs(watched.robot().base().tracking().commanded.vx_mps); };
   const auto spraying = [&] { return watched.robot().pumps().tracking().duty[0] > 0.0; };
   for (int i = 0; i < kLosses; ++i) {
+    if (auto freed = leaseFree(); !freed) return tl::make_unexpected(freed.error());
     double cruise = 0.0;  // the ramp has begun once the command falls below what it had settled at
     const std::string direction =
         i % 2 == 0 ? fmt::format("{}", kJog_mps) : fmt::format("-{}", kJog_mps);
@@ -162,6 +167,7 @@ Result<LossTimes> timeLosses(const WatchedRobot& watched) {
         });
     if (!ramp) return tl::make_unexpected(ramp.error());
     times.ramp_s.push_back(*ramp);
+    if (auto freed = leaseFree(); !freed) return tl::make_unexpected(freed.error());
     auto pump = timeLoss(watched, {"pump", "1", "1"}, spraying, [&] { return !spraying(); });
     if (!pump) return tl::make_unexpected(pump.error());
     times.pump_s.push_back(*pump);
@@ -182,7 +188,7 @@ Result<EvaluationResult> evaluateStop(const SweepOptions&) {
   if (auto over = (*person)->takeOver(); !over) return tl::make_unexpected(over.error());
   if (auto released = (*person)->command(ReleaseLease{}); !released)
     return tl::make_unexpected(released.error());
-  auto losses = timeLosses(**watched);
+  auto losses = timeLosses(**watched, **person);
   if (!losses) return tl::make_unexpected(losses.error());
 
   EvaluationResult out;

@@ -87,7 +87,8 @@ TEST_P(KilledMission, GoesOnWhereItStood) {
   auto robot = ChildProcess::start(robotCommand(true), scratch_.file("second.log"));
   ASSERT_TRUE(robot.has_value()) << robot.error();
   EXPECT_EQ(robot->wait(seconds(150)), 0) << tailOf(scratch_.file("second.log"), 8);
-  (void)world->wait(seconds(5));
+  world->signal(SIGTERM);
+  ASSERT_TRUE(world->wait(seconds(10)).has_value());
   std::ifstream in(scratch_.file("truth.json"));
   const json truth = json::parse(in, nullptr, false);
   ASSERT_FALSE(truth.is_discarded());
