@@ -7,7 +7,7 @@ namespace kiln::thermal {
 namespace {
 
 constexpr int kSamplesPerPixel = 4;
-constexpr double kCentreFloor = 0.1;  // share of the plateau's excess below which a pixel is noise
+constexpr double kCentreFloor = 0.3;  // share of the plateau's excess below which a pixel is noise
 constexpr std::size_t kMinRingPixels = 12;
 
 struct Box {

@@ -11,7 +11,7 @@ namespace {
 constexpr int kWidth_px = 160, kHeight_px = 120;  // Lepton 3.5
 constexpr std::size_t kMaxViews = 240;            // half a minute of sweep; then the oldest goes
 constexpr std::size_t kMaxHypotheses = 24;
-constexpr std::size_t kMaxFitViews = 40;  // more views of one sweep add time, hardly any accuracy
+constexpr std::size_t kMaxFitViews = 30;  // more views of one sweep add time, hardly any accuracy
 
 /// One accepted blob of one image.
 struct View {
@@ -20,6 +20,9 @@ struct View {
   thermal::PlateMeasurement measurement;
   double peak_k = 0.0;
   double box_px = 0.0;  ///< mean edge of the bounding box, for the baseline
+  Eigen::Isometry3d X_camera_map = Eigen::Isometry3d::Identity();
+  Eigen::Vector3d p_alone = Eigen::Vector3d::Zero();  ///< in map, if this view were all there is
+  double range_alone_m = 0.0;
 };
 
 bool touchesBorder(const HeatBlob& blob) {
@@ -102,6 +105,9 @@ void HeatLocalizer::add(const HeatDetections& detections, const Eigen::Isometry3
     view.measurement = {X_map_thermal, {{blob.u, blob.v}, blob.half_max_area_px}};
     view.peak_k = blob.peak_k;
     view.box_px = 0.5 * (blob.u_max - blob.u_min + blob.v_max - blob.v_min) + 1;
+    view.X_camera_map = X_map_thermal.inverse();
+    view.p_alone = impl_->singleViewPosition(view);
+    view.range_alone_m = (view.p_alone - X_map_thermal.translation()).norm();
     impl_->views.push_back(view);
     impl_->solved = false;
   }
@@ -130,20 +136,18 @@ Eigen::Vector3d HeatLocalizer::Impl::singleViewPosition(const View& view) const 
 }
 
 bool HeatLocalizer::Impl::agrees(const View& view, const Eigen::Vector3d& p_map) const {
-  const Eigen::Vector3d p_camera = view.measurement.X_map_camera.inverse() * p_map;
+  const Eigen::Vector3d p_camera = view.X_camera_map * p_map;
   const auto pixel = camera.project(p_camera);
   if (!pixel || p_camera.norm() > config.max_range_m) return false;
   if ((*pixel - view.measurement.seen.centre_px).norm() > config.gate_px) return false;
-  const double range =
-      (view.measurement.X_map_camera.translation() - singleViewPosition(view)).norm();
-  return std::abs(range / p_camera.norm() - 1.0) <= config.gate_size_ratio;
+  return std::abs(view.range_alone_m / p_camera.norm() - 1.0) <= config.gate_size_ratio;
 }
 
 std::vector<const View*> HeatLocalizer::Impl::largestConsensus() const {
   std::vector<const View*> best;
   const std::size_t step = std::max<std::size_t>(1, views.size() / kMaxHypotheses);
   for (std::size_t i = 0; i < views.size(); i += step) {
-    const Eigen::Vector3d p = singleViewPosition(views[i]);
+    const Eigen::Vector3d& p = views[i].p_alone;
     std::vector<const View*> agreeing;
     for (const View& view : views) {
       if (agrees(view, p)) agreeing.push_back(&view);
@@ -160,7 +164,7 @@ thermal::PlateFit HeatLocalizer::Impl::fit(const std::vector<const View*>& agree
   for (std::size_t i = 0; i < n; ++i) {
     const View& view = *agreeing[i * agreeing.size() / n];
     measurements.push_back(view.measurement);
-    starts.push_back(singleViewPosition(view));
+    starts.push_back(view.p_alone);
   }
   Eigen::Vector3d initial;
   for (int axis = 0; axis < 3; ++axis) {

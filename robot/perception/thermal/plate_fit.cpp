@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include <Eigen/Cholesky>
 
@@ -23,8 +24,10 @@ struct Problem {
   std::span<const PlateMeasurement> measurements;
   Eigen::Vector3d normal;
   const PlateFitNoise& noise;
+  std::vector<Eigen::Isometry3d> X_camera_map;  ///< of each measurement
 
-  [[nodiscard]] Eigen::Vector3d residual(const PlateMeasurement& m, const Parameters& p) const {
+  [[nodiscard]] Eigen::Vector3d residual(std::size_t index, const Parameters& p) const {
+    const PlateMeasurement& m = measurements[index];
     const Eigen::Vector3d n = Eigen::AngleAxisd(p[3], Eigen::Vector3d::UnitZ()) * normal;
     const Eigen::Vector3d w = p.segment<3>(4);
     Eigen::Isometry3d X_true_nominal =
@@ -34,7 +37,7 @@ struct Problem {
                                   .toRotationMatrix();
     X_true_nominal.translation() = p.segment<3>(7);
     const Eigen::Isometry3d X_camera_plate =
-        X_true_nominal * m.X_map_camera.inverse() * platePose(p.head<3>(), n);
+        X_true_nominal * X_camera_map[index] * platePose(p.head<3>(), n);
     const auto view = viewPlate(model, camera, X_camera_plate);
     if (!view) return Eigen::Vector3d::Constant(kLostResidual);
     const double radius = std::sqrt(view->area_px / M_PI) * (1.0 + p[10]);
@@ -65,7 +68,7 @@ double robustCost(double squared, double scale) {
 
 double costAt(const Problem& problem, const Parameters& p, const Parameters& p0) {
   double cost = (p - p0).cwiseQuotient(problem.priorSigmas()).squaredNorm();
-  for (const auto& m : problem.measurements) {
+  for (std::size_t m = 0; m < problem.measurements.size(); ++m) {
     cost +=
         robustCost(problem.residual(m, p).squaredNorm(), problem.noise.robust_px * std::sqrt(3.0));
   }
@@ -80,7 +83,7 @@ Linearised linearise(const Problem& problem, const Parameters& p, const Paramete
   out.g = prior.cwiseQuotient(sigmas);
   out.cost = prior.squaredNorm();
   const double scale = problem.noise.robust_px * std::sqrt(3.0);
-  for (const auto& m : problem.measurements) {
+  for (std::size_t m = 0; m < problem.measurements.size(); ++m) {
     const Eigen::Vector3d r = problem.residual(m, p);
     Eigen::Matrix<double, 3, kParameters> J;
     for (int i = 0; i < kParameters; ++i) {
@@ -102,7 +105,8 @@ Linearised linearise(const Problem& problem, const Parameters& p, const Paramete
 PlateFit fitPlate(const PlateModel& model, const CameraModel& camera,
                   std::span<const PlateMeasurement> measurements, const Eigen::Vector3d& initial,
                   const Eigen::Vector3d& normal, const PlateFitNoise& noise) {
-  const Problem problem{model, camera, measurements, normal, noise};
+  Problem problem{model, camera, measurements, normal, noise, {}};
+  for (const auto& m : measurements) problem.X_camera_map.push_back(m.X_map_camera.inverse());
   Parameters p0 = Parameters::Zero();
   p0.head<3>() = initial;
   Parameters p = p0;

@@ -2,23 +2,29 @@
 
 #include <array>
 #include <cmath>
-#include <vector>
 
 namespace kiln::thermal {
 namespace {
 
-constexpr int kCorners = 40;  // of the polygon that stands for the disc
+constexpr std::size_t kCorners = 28;  // of the polygon that stands for the disc
 
-using Polygon = std::vector<Eigen::Vector2d>;
+/// A convex polygon without allocation: this runs thousands of times a fit. Each clip adds at most
+/// one corner.
+struct Polygon {
+  std::array<Eigen::Vector2d, kCorners + 8> corners;
+  std::size_t size = 0;
+  void push(const Eigen::Vector2d& p) { corners[size++] = p; }
+};
 
-/// Polygon of the same area as the disc.
-const Polygon& unitDisc() {
-  static const Polygon disc = [] {
-    Polygon out;
+/// Corners of a polygon that has the area of the unit disc.
+const std::array<Eigen::Vector2d, kCorners>& unitDisc() {
+  static const auto disc = [] {
+    std::array<Eigen::Vector2d, kCorners> out;
     const double step = 2 * M_PI / kCorners;
     const double radius = std::sqrt(step / std::sin(step));
-    for (int i = 0; i < kCorners; ++i) {
-      out.emplace_back(radius * std::cos(i * step), radius * std::sin(i * step));
+    for (std::size_t i = 0; i < kCorners; ++i) {
+      const double angle = step * static_cast<double>(i);
+      out[i] = radius * Eigen::Vector2d(std::cos(angle), std::sin(angle));
     }
     return out;
   }();
@@ -28,13 +34,12 @@ const Polygon& unitDisc() {
 /// Keeps the part where sign * p[axis] <= limit (Sutherland and Hodgman).
 Polygon clip(const Polygon& in, int axis, double sign, double limit) {
   Polygon out;
-  out.reserve(in.size() + 2);
-  for (std::size_t i = 0; i < in.size(); ++i) {
-    const Eigen::Vector2d& a = in[i];
-    const Eigen::Vector2d& b = in[(i + 1) % in.size()];
+  for (std::size_t i = 0; i < in.size; ++i) {
+    const Eigen::Vector2d& a = in.corners[i];
+    const Eigen::Vector2d& b = in.corners[i + 1 < in.size ? i + 1 : 0];
     const double da = sign * a[axis] - limit, db = sign * b[axis] - limit;
-    if (da <= 0) out.push_back(a);
-    if ((da < 0 && db > 0) || (da > 0 && db < 0)) out.push_back(a + (b - a) * (da / (da - db)));
+    if (da <= 0) out.push(a);
+    if ((da < 0 && db > 0) || (da > 0 && db < 0)) out.push(a + (b - a) * (da / (da - db)));
   }
   return out;
 }
@@ -46,8 +51,8 @@ std::optional<PlateObservation> viewPlate(const PlateModel& model, const CameraM
   const Eigen::Vector3d eye =
       X_camera_plate.inverse().translation();  // the camera, in the plate frame
   if (!(eye.z() > model.recess_m + 0.01)) return std::nullopt;
-  Polygon visible = unitDisc();
-  for (auto& p : visible) p *= 0.5 * model.diameter_m;
+  Polygon visible;
+  for (const auto& p : unitDisc()) visible.push(0.5 * model.diameter_m * p);
   // The opening seen from the eye, projected on the plate's plane: a square again.
   const double scale = eye.z() / (eye.z() - model.recess_m);
   const double half = 0.5 * model.opening_m * scale;
@@ -56,17 +61,18 @@ std::optional<PlateObservation> viewPlate(const PlateModel& model, const CameraM
     visible = clip(visible, axis, 1.0, half + centre);
     visible = clip(visible, axis, -1.0, half - centre);
   }
-  if (visible.size() < 3) return std::nullopt;
-  for (auto& p : visible) {
+  if (visible.size < 3) return std::nullopt;
+  for (std::size_t i = 0; i < visible.size; ++i) {
+    Eigen::Vector2d& p = visible.corners[i];
     const auto pixel = camera.project(X_camera_plate * Eigen::Vector3d(p.x(), p.y(), 0));
     if (!pixel) return std::nullopt;
     p = *pixel;
   }
   double twice_area = 0;
   Eigen::Vector2d moment = Eigen::Vector2d::Zero();
-  for (std::size_t i = 0; i < visible.size(); ++i) {
-    const Eigen::Vector2d a = visible[i] - visible[0],
-                          b = visible[(i + 1) % visible.size()] - visible[0];
+  const Eigen::Vector2d& first = visible.corners[0];
+  for (std::size_t i = 1; i + 1 < visible.size; ++i) {
+    const Eigen::Vector2d a = visible.corners[i] - first, b = visible.corners[i + 1] - first;
     const double cross = a.x() * b.y() - a.y() * b.x();
     twice_area += cross;
     moment += cross * (a + b);
@@ -75,7 +81,7 @@ std::optional<PlateObservation> viewPlate(const PlateModel& model, const CameraM
   const double blur = M_PI * model.psf_sigma_px * model.psf_sigma_px;
   const double area = 0.5 * std::abs(twice_area) - blur;
   if (!(area > 0)) return std::nullopt;
-  return PlateObservation{visible[0] + moment / (3 * twice_area), area};
+  return PlateObservation{first + moment / (3 * twice_area), area};
 }
 
 Eigen::Isometry3d platePose(const Eigen::Vector3d& p, const Eigen::Vector3d& normal) {
