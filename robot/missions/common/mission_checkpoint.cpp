@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "robot/world_model/read_file.h"
 #include "robot/world_model/world_json.h"
 
 namespace kiln {
@@ -57,11 +58,6 @@ Result<MissionCheckpoint> decodeCheckpoint(const std::string& text, const std::s
                      "{}: the checkpoint is damaged: {}; start without --resume", name, e.what());
   }
   return out;
-}
-
-Result<void> saveCheckpoint(const std::string& path, const MissionCheckpoint& checkpoint,
-                            Durability durability) {
-  return writeFileAtomically(path, encodeCheckpoint(checkpoint), durability);
 }
 
 Result<MissionCheckpoint> loadCheckpoint(const std::string& path) {

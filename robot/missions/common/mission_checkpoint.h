@@ -4,7 +4,6 @@
 
 #include "common/core/error.h"
 #include "robot/fsm/machine.h"
-#include "robot/world_model/atomic_file.h"
 #include "robot/world_model/world_state.h"
 
 namespace kiln {
@@ -25,9 +24,6 @@ struct MissionCheckpoint {
 [[nodiscard]] Result<MissionCheckpoint> decodeCheckpoint(const std::string& text,
                                                          const std::string& name);
 
-[[nodiscard]] Result<void> saveCheckpoint(const std::string& path,
-                                          const MissionCheckpoint& checkpoint,
-                                          Durability durability);
 [[nodiscard]] Result<MissionCheckpoint> loadCheckpoint(const std::string& path);
 
 }  // namespace kiln

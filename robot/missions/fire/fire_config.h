@@ -53,7 +53,7 @@ struct FireAimConfig {
   double position_tolerance_m = 0.01;
   double angle_tolerance_deg = 1.0;
   double hold_tolerance_m = 0.03;  ///< the arm still counts as at its spray pose
-  double hold_tolerance_deg = 3.0;
+  double hold_tolerance_deg = 5.0;
   double time_limit_s = 60.0;
   void visit(ConfigArchive& a);
 };
@@ -68,7 +68,7 @@ struct FireSprayConfig {
   double off_current_a = 0.3;       ///< the pumps have stopped
   double min_start_l = 0.2;         ///< a tank with less is not started
   double delivered_share = 0.9;     ///< of the water: the place counts as extinguished
-  double phase_limit_factor = 2.0;  ///< of the time that the pump model expects
+  double phase_limit_factor = 3.0;  ///< of the time that the pump model expects
   double flow_lpm = 3.2;            ///< both pumps, for that expectation
   double tank_l = 5.0;              ///< each tank when full
   SprayPatternConfig pattern;

@@ -8,6 +8,8 @@
 namespace kiln {
 namespace {
 constexpr double kDeg = M_PI / 180.0;
+constexpr double kBaseMoved_m = 0.10;  // more than a correction of the localisation
+constexpr double kBaseMoved_rad = 0.09;
 constexpr double kAtWorkPose_m = 0.5;  // near enough to reach the place with the arm
 }  // namespace
 
@@ -50,8 +52,12 @@ std::optional<Eigen::Isometry3d> FireContext::X_map_nozzle() const {
   return X_map_base() * *X_flange * devices.robot.X_flange_nozzle.pose();
 }
 
+Eigen::Isometry3d FireContext::flangeFor(const Eigen::Isometry3d& X_base_nozzle) const {
+  return X_base_nozzle * devices.robot.X_flange_nozzle.pose().inverse();
+}
+
 Eigen::Isometry3d FireContext::flangeForNozzle(const Eigen::Isometry3d& X_map_nozzle) const {
-  return X_map_base().inverse() * X_map_nozzle * devices.robot.X_flange_nozzle.pose().inverse();
+  return flangeFor(X_map_base().inverse() * X_map_nozzle);
 }
 
 Eigen::Vector3d FireContext::placeNormal() const {
@@ -91,10 +97,13 @@ double FireContext::flowScale() const {
 }
 
 bool FireContext::atSprayPose() const {
-  const auto X_now = X_map_nozzle();
-  return aim && X_now &&
-         atPose(*X_now, aim->X_map_nozzle, config.aim.hold_tolerance_m,
-                config.aim.hold_tolerance_deg * kDeg);
+  const auto X_flange = X_base_flange();
+  if (!aim || !X_flange) return false;
+  const Pose2 moved = inverse(aim->X_map_base) * devices.pose();
+  if (std::hypot(moved.x_m, moved.y_m) > kBaseMoved_m || std::abs(moved.yaw_rad) > kBaseMoved_rad)
+    return false;
+  return atPose(*X_flange * devices.robot.X_flange_nozzle.pose(), aim->X_base_nozzle(),
+                config.aim.hold_tolerance_m, config.aim.hold_tolerance_deg * kDeg);
 }
 
 bool FireContext::atWorkPose() const {

@@ -44,8 +44,16 @@ class FireContext {
   HeatWatch heat;
   LookAround look;
   StowedDrive drive;
-  std::optional<AimSolution>
-      aim;                       ///< chosen spray pose; not kept over a restart: aiming starts anew
+  /// The chosen spray pose, seen from where the base stood then: a later correction of the base's
+  /// pose in map does not move the nozzle. Not kept over a restart: aiming starts anew.
+  struct Aim {
+    AimSolution solution;
+    Pose2 X_map_base;
+    [[nodiscard]] Eigen::Isometry3d X_base_nozzle() const {
+      return toIsometry(X_map_base).inverse() * solution.X_map_nozzle;
+    }
+  };
+  std::optional<Aim> aim;
   std::optional<Stamp> pumps_idle_since;  ///< while they should run
   double sweep_started_s = 0.0;  ///< mission time at which the present sweep began
 
@@ -62,6 +70,10 @@ class FireContext {
   [[nodiscard]] std::optional<Eigen::Isometry3d> X_base_flange()
       const;  ///< nullopt without an arm state
   [[nodiscard]] std::optional<Eigen::Isometry3d> X_map_nozzle() const;
+  [[nodiscard]] Eigen::Isometry3d flangeForNozzleInBase(
+      const Eigen::Isometry3d& X_base_nozzle) const;  ///< X_base_flange
+  /// X_base_flange for a nozzle pose in base.
+  [[nodiscard]] Eigen::Isometry3d flangeFor(const Eigen::Isometry3d& X_base_nozzle) const;
   [[nodiscard]] Eigen::Isometry3d flangeForNozzle(
       const Eigen::Isometry3d& X_map_nozzle) const;   ///< X_base_flange
   [[nodiscard]] Eigen::Vector3d placeNormal() const;  ///< of the current place, in map
@@ -71,6 +83,7 @@ class FireContext {
   [[nodiscard]] AimTarget aimTarget(const FireEstimate& estimate) const;
   /// Expected flow by full flow, in the middle of the water that is still to be sprayed here.
   [[nodiscard]] double flowScale() const;
+  /// The nozzle is where it was aimed, and the base was not driven since.
   [[nodiscard]] bool atSprayPose() const;
   [[nodiscard]] bool atWorkPose() const;
 

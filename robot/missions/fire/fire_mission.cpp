@@ -8,6 +8,7 @@
 #include "robot/missions/common/mission_checkpoint.h"
 #include "robot/missions/fire/fire_machine.h"
 #include "robot/skills/aim/jet.h"
+#include "robot/world_model/checkpoint_writer.h"
 
 namespace kiln {
 
@@ -28,9 +29,12 @@ struct FireMission::Impl {
   Impl(const FireDevices& devices, const FireConfig& config, const SprayCalibration& calibration,
        const Options& mission_options)
       : options(mission_options),
+        writer(options.checkpoint_path.empty()
+                   ? nullptr
+                   : std::make_unique<CheckpointWriter>(options.checkpoint_path)),
         context(devices, config, calibration),
         machine(makeFireMachine(context, options.mission_uuid)) {
-    machine->onTransition([this](const FsmCheckpoint& fsm) { save(fsm, Durability::PowerLoss); });
+    machine->onTransition([this](const FsmCheckpoint& fsm) { save(fsm, true); });
   }
 
   /// Litres go to the place that is being worked on, whoever runs the pumps.
@@ -50,22 +54,25 @@ struct FireMission::Impl {
     countWater();
   }
 
-  /// A full disk costs the resume, not the mission.
-  void save(const FsmCheckpoint& fsm, Durability durability) {
-    if (options.checkpoint_path.empty()) return;
+  void save(const FsmCheckpoint& fsm, bool durable) {
     last_save = context.devices.clock.now();
-    const Result<void> saved = saveCheckpoint(
-        options.checkpoint_path, {last_save, fsm, context.devices.world.state()}, durability);
-    if (!saved && !storage_alarm) {
-      logger("mission.fire")->error("checkpoint not kept: {}", saved.error().message);
-      storage_alarm =
-          Alarm{"storage.checkpoint", AlarmLevel::Caution, saved.error().message,
-                "The mission goes on but could not be resumed; free the disk", last_save};
+    if (writer)
+      writer->write(encodeCheckpoint({last_save, fsm, context.devices.world.state()}), durable);
+  }
+
+  /// A full disk costs the resume, not the mission.
+  void watchStorage(Stamp now) {
+    const std::optional<Error> problem = writer ? writer->problem() : std::nullopt;
+    if (problem && !storage_alarm) {
+      logger("mission.fire")->error("checkpoint not kept: {}", problem->message);
+      storage_alarm = Alarm{"storage.checkpoint", AlarmLevel::Caution, problem->message,
+                            "The mission goes on but could not be resumed; free the disk", now};
     }
-    if (saved) storage_alarm.reset();
+    if (!problem) storage_alarm.reset();
   }
 
   const Options options;
+  std::unique_ptr<CheckpointWriter> writer;
   FireContext context;
   std::unique_ptr<Machine> machine;
   std::optional<Alarm> storage_alarm;
@@ -91,8 +98,13 @@ void FireMission::tick(Stamp now) {
   m.machine->step(now);
   const bool running = m.machine->status(now).running;
   if (running && now - m.last_save >= fromSeconds(m.context.config.checkpoint_period_s))
-    m.save(m.machine->checkpoint(), Durability::ProcessDeath);
+    m.save(m.machine->checkpoint(), false);
+  m.watchStorage(now);
   m.context.devices.world.publish();
+}
+
+void FireMission::flushCheckpoint() {
+  if (impl_->writer) impl_->writer->flush();
 }
 
 void FireMission::onDetections(const HeatDetections& detections,

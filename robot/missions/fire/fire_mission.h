@@ -35,7 +35,8 @@ class FireMission {
 
   /// Starts mission and mission clock.
   void start(Stamp now);
-  /// World model from the devices, one step of the machine, checkpoint, snapshot.
+  /// World model from the devices, one step of the machine, checkpoint (written by a thread of its
+  /// own), snapshot.
   void tick(Stamp now);
   /// @param X_map_thermal  camera pose at the image's stamp.
   void onDetections(const HeatDetections& detections, const Eigen::Isometry3d& X_map_thermal);
@@ -43,6 +44,9 @@ class FireMission {
   void onReset(Stamp now);
   /// Goes on from a checkpoint file. Error: says what is wrong with it; nothing is started then.
   [[nodiscard]] Result<void> resumeFrom(const std::string& path, Stamp now);
+
+  /// Waits until the newest checkpoint is on the disk; the destructor does so too.
+  void flushCheckpoint();
 
   [[nodiscard]] std::vector<FirePlaceInfo> places() const;
   [[nodiscard]] std::vector<FireEstimate> fires()

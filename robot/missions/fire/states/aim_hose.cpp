@@ -26,6 +26,7 @@ double largestSigma(const FireEstimate& estimate) {
 void AimHose::enter() {
   FireContext& c = context();
   moving_ = false;
+  c.pumpsOff(now());
   c.aim.reset();
   c.heat.listen(c.placeNormal());
   stopped_ = now();
@@ -58,7 +59,7 @@ Transition AimHose::execute() {
   if (auto aimed = updateAim(*estimate); !aimed)
     return transit<ArmBlocked>(aimed.error().message, ArmBlocked::While::Extended)
         .because(aimed.error().message);
-  if (!atPose(*X_map_nozzle, c.aim->X_map_nozzle, c.config.aim.position_tolerance_m,
+  if (!atPose(*X_map_nozzle, c.aim->solution.X_map_nozzle, c.config.aim.position_tolerance_m,
               c.config.aim.angle_tolerance_deg * kDeg)) {
     beginStep(*X_map_nozzle);
     return stay();
@@ -87,7 +88,7 @@ void AimHose::publishGuards(const FireEstimate& estimate) {
   const auto X_map_nozzle = c.X_map_nozzle();
   const double to_go_m =
       c.aim && X_map_nozzle
-          ? (c.aim->X_map_nozzle.translation() - X_map_nozzle->translation()).norm()
+          ? (c.aim->solution.X_map_nozzle.translation() - X_map_nozzle->translation()).norm()
           : -1.0;
   guard("Arm at spray pose", c.atSprayPose(),
         to_go_m < 0.0 ? std::string("not chosen yet")
@@ -113,22 +114,24 @@ Result<void> AimHose::updateAim(const FireEstimate& estimate) {
     return {};
   };
   if (c.aim) {  // keep the way of standing as long as it works
-    const Eigen::Isometry3d X = aimNozzle(target, c.aim->variation, c.calibration, c.flowScale());
+    const Eigen::Isometry3d X =
+        aimNozzle(target, c.aim->solution.variation, c.calibration, c.flowScale());
     if (feasible(X)) {
-      c.aim->X_map_nozzle = X;
+      c.aim->solution.X_map_nozzle = X;
+      c.aim->X_map_base = c.devices.pose();
       return {};
     }
   }
   auto solution = solveAim(target, c.config.aim.solver, c.calibration, c.flowScale(), feasible);
   if (!solution) return tl::make_unexpected(solution.error());
-  c.aim = *solution;
+  c.aim = FireContext::Aim{*solution, c.devices.pose()};
   return {};
 }
 
 void AimHose::beginStep(const Eigen::Isometry3d& X_map_nozzle) {
   FireContext& c = context();
-  const Eigen::Isometry3d X_next = poseStep(X_map_nozzle, c.aim->X_map_nozzle, c.config.aim.step_m,
-                                            c.config.aim.max_turn_deg * kDeg);
+  const Eigen::Isometry3d X_next = poseStep(X_map_nozzle, c.aim->solution.X_map_nozzle,
+                                            c.config.aim.step_m, c.config.aim.max_turn_deg * kDeg);
   X_base_flange_step_ = c.flangeForNozzle(X_next);
   c.devices.arm.startCartesian({X_base_flange_step_}, false, now());
   moving_ = true;
@@ -144,7 +147,7 @@ Transition AimHose::onStepFailed(const SkillStatus& arm) {
   // No straight line: the whole way to the spray pose by a planned joint motion, which is known to
   // be reachable.
   detour_ = true;
-  c.devices.arm.startPose(c.flangeForNozzle(c.aim->X_map_nozzle), now());
+  c.devices.arm.startPose(c.flangeForNozzle(c.aim->solution.X_map_nozzle), now());
   return stay();
 }
 

@@ -22,6 +22,7 @@ Transition HeatFound::execute() {
   if (near) {
     place.estimate = estimate;
     place.estimate->place = place.name;
+    place.searches = 0;
     return transit<AimHose>().because(
         fmt::format("{:.0f} K at {:.2f} m", estimate->peak_k, estimate->range_m));
   }

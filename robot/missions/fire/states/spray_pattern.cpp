@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "robot/missions/fire/states/aim_hose.h"
 #include "robot/missions/fire/states/arm_blocked.h"
 #include "robot/missions/fire/states/pump_fault.h"
 #include "robot/missions/fire/states/spray_steady.h"
@@ -20,6 +21,8 @@ std::string SprayPattern::denyEntry(const FireContext& context) {
 }
 
 void SprayPattern::enter() {
+  // One moment without duty ends the uninterrupted run that the pump control limits.
+  context().pumpsOff(now());
   steady_ = !context().aim.has_value();
   if (!steady_) beginRound();
 }
@@ -27,9 +30,9 @@ void SprayPattern::enter() {
 void SprayPattern::beginRound() {
   FireContext& c = context();
   std::vector<Eigen::Isometry3d> path;
-  for (const Eigen::Isometry3d& X_map_nozzle :
-       hourglass(c.aim->X_map_nozzle, c.config.spray.pattern))
-    path.push_back(c.flangeForNozzle(X_map_nozzle));
+  for (const Eigen::Isometry3d& X_base_nozzle :
+       hourglass(c.aim->X_base_nozzle(), c.config.spray.pattern))
+    path.push_back(c.flangeFor(X_base_nozzle));
   c.devices.arm.startCartesian(std::move(path), true, now());
   ++rounds_;
 }
@@ -38,6 +41,8 @@ Transition SprayPattern::execute() {
   FireContext& c = context();
   if (const auto fault = keepSpraying(c, now(), timeInState()))
     return transit<PumpFault>().because(*fault);
+  if (!guard("Arm at spray pose", c.atSprayPose()))
+    return transit<AimHose>().because("the nozzle is not where it was aimed");
   const double litres = c.place().litres_est;
   const double goal = c.config.spray.litres_per_fire;
   display(fmt::format("{:.2f} of {:.2f} l (est.), {}", litres, goal,

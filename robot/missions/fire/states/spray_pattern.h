@@ -4,6 +4,7 @@
 
 namespace kiln {
 
+class AimHose;
 class StopPump;
 class PumpFault;
 class ArmBlocked;
@@ -11,7 +12,7 @@ class StartPump;
 
 /// "Spray in Pattern", "Phase 2 Complete?": the other half of the water in an hourglass by tilting
 /// the end-effector.
-class SprayPattern : public FireState<SprayPattern, To<StopPump, PumpFault, ArmBlocked>,
+class SprayPattern : public FireState<SprayPattern, To<StopPump, PumpFault, ArmBlocked, AimHose>,
                                       OnTimeout<StopPump>, ResumeAt<StartPump>> {
  public:
   static constexpr const char* kGroup = kExtinguish;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "robot/missions/fire/states/aim_hose.h"
 #include "robot/missions/fire/states/pump_fault.h"
 #include "robot/missions/fire/states/spray_pattern.h"
 #include "robot/missions/fire/states/spraying.h"
@@ -21,6 +22,8 @@ Transition SpraySteady::execute() {
   FireContext& c = context();
   if (const auto fault = keepSpraying(c, now(), timeInState()))
     return transit<PumpFault>().because(*fault);
+  if (!guard("Arm at spray pose", c.atSprayPose()))
+    return transit<AimHose>().because("the nozzle is not where it was aimed");
   const double litres = c.place().litres_est;
   display(fmt::format("{:.2f} of {:.2f} l (est.)", litres, steadyLitres(c)));
   if (guard("Phase 1 complete", litres >= steadyLitres(c), fmt::format("{:.2f} l (est.)", litres)))

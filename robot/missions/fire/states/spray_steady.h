@@ -5,13 +5,14 @@
 namespace kiln {
 
 class SprayPattern;
+class AimHose;
 class StopPump;
 class PumpFault;
 class StartPump;
 
 /// "Phase 1 Complete?": the first half of the water, the hose kept steady. After a restart the
 /// pumps are started anew.
-class SpraySteady : public FireState<SpraySteady, To<SprayPattern, StopPump, PumpFault>,
+class SpraySteady : public FireState<SpraySteady, To<SprayPattern, StopPump, PumpFault, AimHose>,
                                      OnTimeout<StopPump>, ResumeAt<StartPump>> {
  public:
   static constexpr const char* kGroup = kExtinguish;

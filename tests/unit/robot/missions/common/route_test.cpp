@@ -1,0 +1,77 @@
+#include "robot/missions/common/route.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace kiln {
+namespace {
+
+constexpr double kRadius_m =
+    1.18 + 0.35;  // circumscribed circle of 1.9 x 1.4 m and the configured clearance
+
+class RouteTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto loaded =
+        loadConfig(std::string(KILN_SOURCE_DIR) + "/resources/config/arena_kitchen.yaml", arena);
+    ASSERT_TRUE(loaded.has_value()) << loaded.error();
+  }
+  ArenaMap arena;
+};
+
+TEST_F(RouteTest, WallsFurnitureAndTablesBlockALine) {
+  EXPECT_TRUE(straightIsClear(arena, {7.4, 0, 0}, {9.6, -0.6, 0}, kRadius_m));
+  EXPECT_FALSE(straightIsClear(arena, {0, 3, 0}, {8, 3, 0}, kRadius_m)) << "through the west wall";
+  EXPECT_FALSE(straightIsClear(arena, {9.95, 2.8, 0}, {12.1, 2.8, 0}, kRadius_m))
+      << "onto the table of place 1";
+  EXPECT_TRUE(straightIsClear(arena, {4.9, 0, 0}, {5.1, 0, 0}, 1.2))
+      << "the lintel is driven under";
+}
+
+TEST_F(RouteTest, RoutesBetweenPlacesAreClearAndEndAtTheWorkPose) {
+  const Pose2 hub = arena.entry_path.back().pose();
+  const Pose2 work[] = {arena.fire_places[0].work_pose.pose(),
+                        arena.fire_places[1].work_pose.pose()};
+  const struct {
+    Pose2 here;
+    int from;
+    int to;
+  } cases[] = {{hub, -1, 0}, {hub, -1, 1}, {work[0], 0, 1}, {work[1], 1, 0}};
+  for (const auto& c : cases) {
+    const auto route = routeToPlace(arena, c.here, c.from, c.to, kRadius_m);
+    ASSERT_FALSE(route.empty());
+    EXPECT_EQ(route.back().x_m, work[c.to].x_m);
+    EXPECT_EQ(route.back().yaw_rad, work[c.to].yaw_rad);
+    Pose2 at = c.here;
+    for (const Pose2& next : route) {
+      EXPECT_TRUE(straightIsClear(arena, at, next, 1.18)) << c.from << " -> " << c.to;
+      at = next;
+    }
+  }
+}
+
+TEST_F(RouteTest, AtTheSamePlaceOnlyTheWorkPoseIsLeft) {
+  const Pose2 work = arena.fire_places[1].work_pose.pose();
+  EXPECT_EQ(routeToPlace(arena, work, 1, 1, kRadius_m).size(), 1u);
+}
+
+TEST_F(RouteTest, AWayPointIsKeptWhereTheStraightLineIsBlocked) {
+  // Around the west wall: the straight line from outside to a point behind the wall is blocked, by
+  // way of the door not.
+  const std::vector<Pose2> route{{2.5, 0, 0}, {7.4, 0, 0}, {7.4, 3.0, 0}};
+  const auto kept = shortened(arena, {2.5, 3.0, 0}, route, 1.2);
+  ASSERT_EQ(kept.size(), 3u);
+}
+
+TEST(Remaining, StartsAtTheSegmentWhereTheRobotStands) {
+  const std::vector<Pose2> route{{2.5, 0, 0}, {7.4, 0, 0}};
+  EXPECT_EQ(remaining({0, 0, 0}, route, {0.1, 0.1, 0}).size(), 2u);
+  EXPECT_EQ(remaining({0, 0, 0}, route, {4.0, 0.2, 0}).size(), 1u) << "half-way to the hub";
+  EXPECT_EQ(remaining({0, 0, 0}, route, {9.0, 1.0, 0}).size(), 1u)
+      << "beyond it the hub is still the goal";
+  EXPECT_TRUE(remaining({0, 0, 0}, {}, {1, 1, 0}).empty());
+}
+
+}  // namespace
+}  // namespace kiln

@@ -1,0 +1,58 @@
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/robot/missions/fire/fire_rig.h"
+
+namespace kiln {
+namespace {
+
+TEST(FireMachine, DescribesEveryStateAndEdgeForTheOperator) {
+  FireRig rig;
+  const FsmInfo info = rig.mission->machine().info();
+  EXPECT_EQ(info.mission, "fire");
+  EXPECT_EQ(info.start_state, "EnterBuilding");
+  std::set<std::string> groups;
+  for (const FsmStateInfo& state : info.states) {
+    groups.insert(state.group);
+    EXPECT_FALSE(state.doc.empty()) << state.name;
+    EXPECT_EQ(state.enterable, state.not_enterable_reason.empty()) << state.name;
+  }
+  EXPECT_EQ(groups, (std::set<std::string>{"search fire", "extinguish", "faults"}));
+  for (const FsmEdgeInfo& edge : info.edges)
+    EXPECT_FALSE(edge.consequence.empty()) << edge.from << edge.to;
+}
+
+TEST(FireMachine, EveryWorkingStateReactsToProtectiveStopAndClock) {
+  FireRig rig;
+  const FsmInfo info = rig.mission->machine().info();
+  for (const FsmStateInfo& state : info.states) {
+    if (state.terminal || state.name == "ProtectiveStop" || state.name == "TimeNearlyOver")
+      continue;
+    std::set<std::string> targets;
+    for (const FsmEdgeInfo& edge : info.edges)
+      if (edge.from == state.name) targets.insert(edge.to);
+    EXPECT_TRUE(targets.count("ProtectiveStop") == 1 && targets.count("TimeNearlyOver") == 1)
+        << state.name;
+  }
+}
+
+TEST(FireMission, TellsPlacesEstimatesAndJet) {
+  FireRig rig;
+  ASSERT_TRUE(rig.runToState("SpraySteady"));
+  rig.run(1.0);
+  ASSERT_EQ(rig.mission->places().size(), 2u);
+  EXPECT_EQ(rig.mission->places()[0].name, "place 1");
+  ASSERT_EQ(rig.mission->fires().size(), 1u);
+  EXPECT_EQ(rig.mission->fires()[0].place, "place 1");
+  const JetPreview jet = rig.mission->jetPreview(rig.clock.now());
+  EXPECT_TRUE(jet.spraying);
+  ASSERT_GT(jet.points_map.size(), 10u);
+  double nearest = 1.0;
+  for (const Eigen::Vector3d& p : jet.points_map)
+    nearest = std::min(nearest, (p - rig.sweep.p_plate_map).norm());
+  EXPECT_LT(nearest, 0.04) << "5 cm between points";
+}
+
+}  // namespace
+}  // namespace kiln
