@@ -38,8 +38,8 @@ TEST(Jet, MissTellsSideHeightAndAngle) {
   ASSERT_TRUE(miss.reaches);
   EXPECT_NEAR(miss.lateral_m, 0.05, 1e-9) << "looking along -X, left is -Y";
   EXPECT_NEAR(miss.vertical_m, 0.1 - 0.0668, 1e-3);
-  // Slope of the parabola: g d / v^2 = 0.19.
-  EXPECT_NEAR(miss.angle_rad, std::atan(9.81 * 0.7 / 36.0), 0.02);
+  // Slope of the parabola: g d / v^2 = 0.19; the table is linear over 20 cm, so up to 0.027 less.
+  EXPECT_NEAR(miss.angle_rad, std::atan(9.81 * 0.7 / 36.0), 0.03);
 }
 
 TEST(Jet, AwayFromThePlaneNeverReachesIt) {
