@@ -55,7 +55,7 @@ class FireContext {
   };
   std::optional<Aim> aim;
   std::optional<Stamp> pumps_idle_since;  ///< while they should run
-  double sweep_started_s = 0.0;  ///< mission time at which the present sweep began
+  double sweep_started_s = 0.0;           ///< mission time at which the present sweep began
 
   [[nodiscard]] WorldState& world() const { return devices.world.edit(); }
   /// @pre a place is selected.
