@@ -27,6 +27,7 @@ struct Arguments {
   std::string sim, lidar, thermal;
   std::string listen = "tcp://127.0.0.1:7300";
   std::string report;
+  double heat_threshold_c = 0.0;
   bool exit_when_done = false;
   bool print_config = false;
   bool print_reference = false;
@@ -43,6 +44,9 @@ void addOptions(CLI::App& app, Arguments& a) {
   app.add_option("--lidar", a.lidar,
                  "show a recorded VLP-16 capture: pcap, or raw 1206-byte packets");
   app.add_option("--thermal", a.thermal, "show recorded Lepton stills from a folder, at 8.77 Hz");
+  app.add_option("--heat-threshold-c", a.heat_threshold_c,
+                 "a heat source is hotter than this (default: the config's)")
+      ->check(CLI::Range(1.0, 400.0));
   app.add_option("--mission", a.robot.mission, "mission")
       ->default_val("fire")
       ->check(CLI::IsMember({"fire"}));
@@ -59,8 +63,10 @@ void addOptions(CLI::App& app, Arguments& a) {
                  "where stations connect: tcp://127.0.0.1:PORT or ipc:///DIR/PREFIX")
       ->capture_default_str();
   app.add_option("--config", a.config, "robot config (default: resources/config/robot.yaml)");
-  app.add_flag("--print-config", a.print_config, "print the effective configuration as YAML and end");
-  app.add_flag("--print-config-reference", a.print_reference, "print every key with unit, range and meaning, and end");
+  app.add_flag("--print-config", a.print_config,
+               "print the effective configuration as YAML and end");
+  app.add_flag("--print-config-reference", a.print_reference,
+               "print every key with unit, range and meaning, and end");
   app.add_option("--log-level", a.log_level, "0 trace .. 4 error")->check(CLI::Range(0, 5));
 }
 
@@ -70,15 +76,16 @@ std::string defaultStateFolder() {
   return (std::filesystem::temp_directory_path() / "kiln-state").string();
 }
 
-Result<RobotSettings> loadSettings(const std::string& path) {
+Result<RobotSettings> loadSettings(const Arguments& a) {
   RobotSettings settings;
-  std::string file = path;
+  std::string file = a.config;
   if (file.empty()) {
     auto found = resourcePath("config/robot.yaml");
     if (!found) return tl::make_unexpected(found.error());
     file = *found;
   }
   if (auto loaded = loadConfig(file, settings); !loaded) return tl::make_unexpected(loaded.error());
+  if (a.heat_threshold_c > 0.0) settings.heat_detector.threshold_c = a.heat_threshold_c;
   return settings;
 }
 
@@ -149,7 +156,7 @@ Result<std::unique_ptr<OperatorLink>> openLink(const Arguments& a, const RobotSe
 }
 
 int printSettings(const Arguments& a) {
-  auto settings = loadSettings(a.config);
+  auto settings = loadSettings(a);
   if (!settings) return fail(settings.error());
   const ConfigNode node{[&](ConfigArchive& archive) { settings->visit(archive); }};
   fmt::print("{}", a.print_reference ? referenceTable(node) : dumpYaml(node));
@@ -165,7 +172,7 @@ int run(Arguments a) {
   }
   if (a.robot.lockstep && a.sim.empty())
     return fail({ErrorCode::InvalidInput, "--lockstep needs --sim ENDPOINT"});
-  auto settings = loadSettings(a.config);
+  auto settings = loadSettings(a);
   if (!settings) return fail(settings.error());
   if (a.robot.state_dir.empty()) a.robot.state_dir = defaultStateFolder();
   auto lock = InstanceLock::acquire(a.robot.state_dir);

@@ -159,7 +159,9 @@ void MissionControl::executeSetpoint(const Authority::Accepted& accepted) {
     parts_.teleop.jogBase(*jog, accepted.received, accepted.speed_scale);
   } else if (const auto* arm = std::get_if<JogArm>(&body)) {
     const auto state = parts_.arm.state();
-    if (state) parts_.teleop.jogArm(*arm, state->q, accepted.received, accepted.speed_scale);
+    if (state) {
+      parts_.teleop.jogArm(*arm, state->q, parts_.pose(), accepted.received, accepted.speed_scale);
+    }
   } else if (const auto* pump = std::get_if<HoldPump>(&body)) {
     parts_.teleop.holdPump(*pump, accepted.received);
   }

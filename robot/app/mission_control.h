@@ -1,12 +1,13 @@
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "common/model/status.h"
 #include "robot/app/alarm_book.h"
-#include "robot/hal/arena.h"
 #include "robot/app/teleop.h"
 #include "robot/control/arm_controller.h"
+#include "robot/hal/arena.h"
 #include "robot/missions/fire/fire_mission.h"
 #include "robot/safety/authority.h"
 #include "robot/skills/macro_runner.h"
@@ -27,6 +28,7 @@ class MissionControl {
     Arm& arm;
     ArmController& arm_controller;
     Arena& arena;
+    std::function<Pose2()> pose;  ///< newest X_map_base
   };
   explicit MissionControl(Parts parts) : parts_(parts) {}
 

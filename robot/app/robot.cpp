@@ -161,9 +161,10 @@ Robot::Impl::Impl(const RobotSettings& settings_in, const RobotOptions& options_
              {robot, arena, move_arm, pumps, spray_in, [this] { return pose(); },
               [this] { return flange(); }, [this] { return authority.epoch().value(); }},
              std::move(macros_in)),
-      teleop(settings.teleop, robot, base, arm, pumps),
+      teleop(settings.teleop, robot, arena, base, arm, pumps),
       authority(settings.authority),
-      control({mission, teleop, macros, alarms, stop, devices.arm, arm, devices.arena}),
+      control({mission, teleop, macros, alarms, stop, devices.arm, arm, devices.arena,
+               [this] { return pose(); }}),
       telemetry({10.0, 10.0, 5.0, settings.camera_rate_hz, settings.jpeg_quality}, link, executor),
       report(options.mission, clock.now()) {}
 
@@ -316,6 +317,8 @@ void Robot::Impl::raiseAlarms(Stamp now) {
              "tank empty, hose blocked or cable loose: check, then spray again", now);
   alarms.set("pose.lost", fsm.running && tracked.health == PoseHealth::Lost, AlarmLevel::Warning,
              "Position lost", "drive by hand or call a reset", now);
+  alarms.set("teleop.too_near", control.mode() == Mode::Teleop && !teleop.blocked().empty(),
+             AlarmLevel::Advisory, "Arm jog stopped: " + teleop.blocked(), "jog away from it", now);
   const auto mission_alarms = mission.alarms();
   storage_ok = mission_alarms.empty();
   alarms.set("storage", !storage_ok, AlarmLevel::Caution,

@@ -25,12 +25,20 @@ void Teleop::Config::visit(ConfigArchive& a) {
   a.field("max_tool_rate_radps", max_tool_rate_radps, "rad/s", 0, 2, "tool turn rate");
   a.field("max_joint_rate_radps", max_joint_rate_radps, "rad/s", 0, 3, "joint speed in a jog");
   a.field("guard_force_n", guard_force_n, "N", 5, 150, "an arm jog stops at this contact force");
+  a.field("look_ahead_s", look_ahead_s, "s", 0.05, 2,
+          "an arm jog is judged by where the arm would be then");
+  a.field("clearance_m", clearance_m, "m", 0, 0.3,
+          "an arm jog may not come nearer to anything known");
   a.field("damping", damping, "", 0.001, 1, "damping of the Cartesian inverse near singularities");
 }
 
-Teleop::Teleop(Config config, const RobotGeometry& robot, BaseController& base, ArmController& arm,
-               PumpController& pumps)
-    : config_(config), robot_(robot), base_(base), arm_(arm), pumps_(pumps) {}
+Teleop::Teleop(Config config, const RobotGeometry& robot, const ArenaMap& arena,
+               BaseController& base, ArmController& arm, PumpController& pumps)
+    : config_(config), robot_(robot), base_(base), arm_(arm), pumps_(pumps), collision_(robot) {
+  known_boxes_ = arena.walls;
+  known_boxes_.insert(known_boxes_.end(), arena.furniture.begin(), arena.furniture.end());
+  for (const BoxConfig& box : arena.fireFurniture()) known_boxes_.push_back(box);
+}
 
 void Teleop::setSpeedScale(double scale) { speed_scale_ = std::clamp(scale, 0.05, 1.0); }
 
@@ -76,12 +84,23 @@ Vector6d Teleop::jointRates(const JogArm& jog, const Vector6d& q, double scale) 
   return qd;
 }
 
-void Teleop::jogArm(const JogArm& jog, const Vector6d& q, Stamp received, double link_scale) {
+std::string Teleop::objection(const Vector6d& q, const Vector6d& qd, const Pose2& X_map_base) {
+  collision_.setScene(known_boxes_, X_map_base);
+  const Clearance ahead = collision_.clearance(q + qd * config_.look_ahead_s);
+  if (ahead.distance_m >= config_.clearance_m || ahead.distance_m > collision_.distance(q))
+    return {};
+  return fmt::format("{} is {:.0f} cm away", ahead.what, 100.0 * std::max(0.0, ahead.distance_m));
+}
+
+void Teleop::jogArm(const JogArm& jog, const Vector6d& q, const Pose2& X_map_base, Stamp received,
+                    double link_scale) {
   ArmSetpoint setpoint;
   setpoint.kind = ArmSetpoint::Kind::JointVelocity;
   setpoint.stamp = received;
   setpoint.qd = jointRates(jog, q, speed_scale_ * link_scale);
   setpoint.stop_force_n = config_.guard_force_n;
+  blocked_ = objection(q, setpoint.qd, X_map_base);
+  if (!blocked_.empty()) setpoint.qd.setZero();
   arm_.setpoint(setpoint);
 }
 

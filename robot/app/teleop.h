@@ -1,12 +1,15 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "common/model/command.h"
 #include "common/robot_model/robot_geometry.h"
 #include "robot/control/arm_controller.h"
 #include "robot/control/base_controller.h"
 #include "robot/control/pump_controller.h"
+#include "robot/planning/arm_motion/arm_collision.h"
+#include "robot/scene/arena_map.h"
 
 namespace kiln {
 
@@ -22,22 +25,30 @@ class Teleop {
     double max_tool_rate_radps = 0.6;
     double max_joint_rate_radps = 0.6;
     double guard_force_n = 80.0;
-    double damping = 0.05;  ///< of the Cartesian inverse near singularities
+    double look_ahead_s = 0.3;  ///< a jog is judged by where the arm would be then
+    double clearance_m = 0.03;  ///< nearer only when it leads away
+    double damping = 0.05;      ///< of the Cartesian inverse near singularities
     void visit(ConfigArchive& a);
   };
-  Teleop(Config config, const RobotGeometry& robot, BaseController& base, ArmController& arm,
-         PumpController& pumps);
+  Teleop(Config config, const RobotGeometry& robot, const ArenaMap& arena, BaseController& base,
+         ArmController& arm, PumpController& pumps);
 
   void setSpeedScale(double scale);
   [[nodiscard]] double speedScale() const { return speed_scale_; }
   void jogBase(const JogBase& jog, Stamp received, double link_scale);
-  /// @param q  measured joints, for Cartesian jogs.
-  void jogArm(const JogArm& jog, const Vector6d& q, Stamp received, double link_scale);
+  /// Stops before the robot's own body, itself, the ground and the known boxes of the arena.
+  /// @param q  measured joints.
+  void jogArm(const JogArm& jog, const Vector6d& q, const Pose2& X_map_base, Stamp received,
+              double link_scale);
+  /// Why the last arm jog did not move: "forearm is 2 cm from tank left"; empty if it did.
+  [[nodiscard]] const std::string& blocked() const { return blocked_; }
   void holdPump(const HoldPump& hold, Stamp received);
   /// Explicit zero on everything that teleoperation moves.
   void releaseAll(Stamp now);
 
  private:
+  [[nodiscard]] std::string objection(const Vector6d& q, const Vector6d& qd,
+                                      const Pose2& X_map_base);
   [[nodiscard]] Vector6d jointRates(const JogArm& jog, const Vector6d& q, double scale) const;
 
   Config config_;
@@ -45,6 +56,9 @@ class Teleop {
   BaseController& base_;
   ArmController& arm_;
   PumpController& pumps_;
+  ArmCollision collision_;
+  std::vector<BoxConfig> known_boxes_;
+  std::string blocked_;
   double speed_scale_ = 0.35;
 };
 

@@ -39,7 +39,8 @@ class TeleopTest : public testing::Test {
   BaseController base_{{}, robot_, base_device_, stop_};
   ArmController arm_{{}, robot_, arm_device_, stop_};
   PumpController pumps_{{}, pumps_device_, stop_};
-  Teleop teleop_{{}, robot_, base_, arm_, pumps_};
+  ArenaMap arena_;  // nothing around
+  Teleop teleop_{{}, robot_, arena_, base_, arm_, pumps_};
 };
 
 TEST_F(TeleopTest, SilenceIsAReleaseOfTheBase) {
@@ -75,12 +76,33 @@ TEST_F(TeleopTest, MovesTheToolAlongTheBaseAxes) {
   jog.frame = JogFrame::Base;
   jog.velocity[2] = 0.1;  // up
   for (int i = 0; i < 25; ++i) {
-    teleop_.jogArm(jog, arm_device_.state()->q, clock_.now(), 1.0);
+    teleop_.jogArm(jog, arm_device_.state()->q, Pose2{}, clock_.now(), 1.0);
     run(milliseconds(40));
   }
   const Eigen::Vector3d moved = robot_.X_base_flange(arm_device_.state()->q).translation() - before;
   EXPECT_GT(moved.z(), 0.05);
   EXPECT_LT(std::hypot(moved.x(), moved.y()), 0.2 * moved.z()) << "straight up";
+}
+
+TEST_F(TeleopTest, StopsBeforeTheRobotsOwnDeckAndSaysSo) {
+  run(milliseconds(200));
+  teleop_.setSpeedScale(1.0);
+  JogArm jog;
+  jog.frame = JogFrame::Base;
+  jog.velocity[0] = -0.15;  // back over the deck
+  jog.velocity[2] = -0.25;  // and down into it
+  const ArmCollision collision(robot_);
+  double nearest = 1.0;
+  for (int i = 0; i < 250; ++i) {
+    teleop_.jogArm(jog, arm_device_.state()->q, Pose2{}, clock_.now(), 1.0);
+    run(milliseconds(40));
+    nearest = std::min(nearest, collision.distance(arm_device_.state()->q));
+  }
+  EXPECT_FALSE(teleop_.blocked().empty());
+  EXPECT_GT(nearest, 0.0) << "touched";
+  jog.velocity = -jog.velocity;
+  teleop_.jogArm(jog, arm_device_.state()->q, Pose2{}, clock_.now(), 1.0);
+  EXPECT_EQ(teleop_.blocked(), "") << "away is allowed";
 }
 
 TEST_F(TeleopTest, ReleaseAllStopsEverythingAtOnce) {
