@@ -12,7 +12,7 @@
 namespace kiln::gui {
 namespace {
 
-constexpr int kPumpWidth_px = 124, kPumpHeight_px = 120;
+constexpr int kPumpWidth_px = 124, kPumpHeight_px = 120, kListMin_px = 86;
 
 bool sameMacros(const std::vector<MacroRow*>& rows, const std::vector<MacroInfo>& macros) {
   return std::equal(rows.begin(), rows.end(), macros.begin(), macros.end(),
@@ -46,6 +46,8 @@ MacrosTile::MacrosTile(const Ui& ui, HoldToRun& hold, QWidget* parent)
   scroll->setWidget(macros);
   scroll->setWidgetResizable(true);
   scroll->setFocusPolicy(Qt::NoFocus);
+  scroll->setSizeAdjustPolicy(QAbstractScrollArea::AdjustToContents);
+  scroll->setMinimumHeight(kListMin_px);
   scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   macros->setAutoFillBackground(false);
   scroll->viewport()->setAutoFillBackground(false);
@@ -177,7 +179,7 @@ void MacrosTile::refreshPump() {
                           .arg(status->water.sprayed_l_est - sprayed_before_l_, 0, 'f', 2)
                           .arg(toSeconds(ui_.clock.now() - spray_began_), 0, 'f', 1));
   } else {
-    pump_->setSubtext(why.isEmpty() ? tr("hold to spray") : why);
+    pump_->setSubtext(why.isEmpty() ? tr("hold to spray") : tr("locked"));
   }
 }
 

@@ -83,6 +83,8 @@ void SceneCanvas::paintEvent(QPaintEvent*) {
     paintTopView(painter, snapshot_, camera_, colors, shape_, size());
   } else if (frame_.image.isNull()) {
     painter.fillRect(rect(), ui_.theme.colors().scene_ground);
+    painter.setPen(ui_.theme.colors().dim);
+    painter.drawText(rect(), Qt::AlignCenter, tr("preparing the 3D view"));
   } else {
     painter.drawImage(rect(), frame_.image);
   }

@@ -9,7 +9,7 @@
 
 namespace kiln::gui {
 namespace {
-constexpr int kWordButton_px = 40, kJointButton_px = 17;
+constexpr int kWordButton_px = 30, kJointButton_px = 16;
 constexpr int kFirstJoint = 2;  // ids of the mode buttons: 0 Move, 1 Turn, 2..7 joints 1..6
 }  // namespace
 
@@ -85,8 +85,8 @@ QWidget* JogPanel::buildArmModes() {
     modes_->addButton(button, id);
     row->addWidget(button);
   };
-  add(tr("move"), tr("tool forward, left, up, along the robot's axes"), 0);
-  add(tr("turn"), tr("tool pitch, yaw, roll"), 1);
+  add(tr("xyz"), tr("tool forward, left, up, along the robot's axes"), 0);
+  add(tr("rpy"), tr("tool pitch, yaw, roll"), 1);
   for (int i = 0; i < 6; ++i)
     add(QString::number(i + 1), tr("joint %1, by the stick to the sides").arg(i + 1),
         kFirstJoint + i);
@@ -109,7 +109,7 @@ void JogPanel::setArmMode(ArmJogMode mode, int joint) {
   up_->setEnds({}, {}, mode == ArmJogMode::Turn ? QStringLiteral("↻") : QStringLiteral("up"),
                mode == ArmJogMode::Turn ? QStringLiteral("↺") : QStringLiteral("dn"));
   arm_caption_->setText(joints ? tr("arm joint %1").arg(joint + 1)
-                               : tr("arrows · PgUp PgDn · ⇧ turns"));
+                               : tr("arrows PgUp/Dn · ⇧ turns"));
   restyle();
 }
 

@@ -57,9 +57,12 @@ QWidget* TeleopTile::makeSide() {
   column->setSpacing(5);
   enter_ = new ActButton(ui_, tr("Enter Teleop"));
   enter_->setKind(ActKind::Manual);
-  enter_->setSubtext(tr("mission pauses, robot holds"));
-  leave_ = new HoldButton(ui_, tr("Return to autonomy"), 1.0);
-  leave_->setSubtext(tr("hold 1 s · mission stays paused"));
+  enter_->setSubtext(tr("robot holds"));
+  leave_ = new HoldButton(ui_, tr("To autonomy"), 1.0);
+  leave_->setSubtext(tr("hold 1 s"));
+  enter_->setToolTip(tr("the mission pauses, the robot holds its pose until you move it"));
+  leave_->setToolTip(tr(
+      "hold for 1 s: sticks and keys are released; the mission stays paused until you resume it"));
   state_ = new QLabel;
   state_->setWordWrap(true);
   state_->setAlignment(Qt::AlignTop | Qt::AlignLeft);
@@ -123,7 +126,9 @@ void TeleopTile::refresh() {
   const Palette& p = ui_.theme.colors();
   const bool fresh_trip =
       !trip_.isEmpty() && toSeconds(ui_.clock.now() - tripped_at_) < kTripShown_s;
-  QString text = why;
+  const bool away = models_.status.status() && models_.status.status()->mode != Mode::Teleop;
+  QString text =
+      away && models_.mayCommand() ? tr("Teleop pauses the mission; the robot holds") : why;
   QColor color = p.dim;
   if (fresh_trip) {
     text = tr("let go: %1").arg(trip_);
