@@ -197,7 +197,7 @@ void JogPanel::restyle() {
     button->setChecked(on);
     button->setFont(ui_.theme.font(TextRole::Small));
     button->setStyleSheet(QStringLiteral("QToolButton { border: none; border-radius: 3px; padding: "
-                                         "2px 4px; color: %1; background: %2; }")
+                                         "2px 0px; color: %1; background: %2; }")
                               .arg(on ? p.text.name() : p.dim.name(),
                                    on ? p.raised.name() : QStringLiteral("transparent")));
   }
