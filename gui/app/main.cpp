@@ -11,6 +11,7 @@
 #include "gui/app/options.h"
 #include "gui/app/screenshots.h"
 #include "gui/app/stall_meter.h"
+#include "gui/app/stop_probe.h"
 #include "gui/link/fake_link.h"
 #include "gui/link/robot_link.h"
 #include "gui/views/scene3d/scene_renderer.h"
@@ -96,6 +97,17 @@ int run(int argc, char** argv, const StationOptions& options) {
                        if (std::exchange(asked, true)) return;
                        models.lease.request();
                      });
+  }
+  std::unique_ptr<StopProbe> probe;
+  if (options.measure_stop > 0) {
+    probe = std::make_unique<StopProbe>(window, models, options.measure_stop);
+    QObject::connect(probe.get(), &StopProbe::finished, &app, [&probe] {
+      std::cout << "{\"key_to_latch_s\": [";
+      for (std::size_t i = 0; i < probe->latchS().size(); ++i)
+        std::cout << (i ? ", " : "") << probe->latchS()[i];
+      std::cout << "]}" << std::endl;
+      QApplication::quit();
+    });
   }
   link->open();
   const int code = QApplication::exec();

@@ -31,6 +31,9 @@ std::optional<int> parseOptions(int argc, char** argv, StationOptions& options) 
   app.add_flag("--exit-when-done", options.exit_when_done, "leave when the mission has ended");
   app.add_flag("--stall-report", options.stall_report,
                "print the gaps of the event loop at the end");
+  app.add_option("--measure-stop", options.measure_stop,
+                 "press the STOP key so often, print key to latch as JSON and leave")
+      ->check(CLI::Range(1, 10000));
   app.add_flag("--take-lease", options.take_lease, "ask for the lease at start");
   app.add_flag("--flat", options.flat, "draw the scene from above, without OpenGL");
   try {

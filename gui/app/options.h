@@ -19,6 +19,7 @@ struct StationOptions {
   int width = 1680, height = 1020;
   bool exit_when_done = false;
   bool stall_report = false;
+  int measure_stop = 0;  ///< presses of the STOP key to time, then leave; 0 = none
   bool take_lease = false;
   bool flat = false;  ///< top view instead of 3D
 };

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <csignal>
+#include <fstream>
 #include <limits>
 
 #include <nlohmann/json.hpp>
@@ -175,6 +176,28 @@ Result<LossTimes> timeLosses(const WatchedRobot& watched, ScriptedOperator& pers
   return times;
 }
 
+/// Key to latch in the station's own window, on a display of its own, with everything else drawn as
+/// usual.
+Result<std::vector<double>> timeKeyPresses(const WatchedRobot& watched) {
+  const std::string log = watched.scratch().file("station.log");
+  auto station = ChildProcess::start(
+      {"/usr/bin/xvfb-run", "-a", "-s", "-screen 0 1680x1050x24", siblingProgram("kiln-station"),
+       "--connect", watched.endpoint(), "--measure-stop", std::to_string(kStops)},
+      log);
+  if (!station) return tl::make_unexpected(station.error());
+  if (station->wait(seconds(120)) != 0) {
+    return makeError(ErrorCode::Timeout, "kiln-station did not time its STOP key: {}",
+                     tailOf(log, 4));
+  }
+  std::ifstream in(log);
+  for (std::string line; std::getline(in, line);) {
+    const json timed = json::parse(line, nullptr, false);
+    if (timed.is_object() && timed.contains("key_to_latch_s"))
+      return timed["key_to_latch_s"].get<std::vector<double>>();
+  }
+  return makeError(ErrorCode::NotFound, "kiln-station printed no times: {}", tailOf(log, 4));
+}
+
 }  // namespace
 
 Result<EvaluationResult> evaluateStop(const SweepOptions&) {
@@ -188,6 +211,8 @@ Result<EvaluationResult> evaluateStop(const SweepOptions&) {
   if (auto over = (*person)->takeOver(); !over) return tl::make_unexpected(over.error());
   if (auto released = (*person)->command(ReleaseLease{}); !released)
     return tl::make_unexpected(released.error());
+  auto keys = timeKeyPresses(**watched);
+  if (!keys) return tl::make_unexpected(keys.error());
   auto losses = timeLosses(**watched, **person);
   if (!losses) return tl::make_unexpected(losses.error());
 
@@ -195,13 +220,19 @@ Result<EvaluationResult> evaluateStop(const SweepOptions&) {
   out.name = "stop";
   out.figures = {{"latch_median_s", median(*latched), "s", "", true},
                  {"latch_p99_s", quantile(*latched, 0.99), "s", "", true},
+                 {"key_to_latch_median_s", median(*keys), "s", "", true},
+                 {"key_to_latch_p99_s", quantile(*keys, 0.99), "s", "", true},
                  {"setpoint_loss_to_ramp_s", quantile(losses->ramp_s, 1.0), "s", "", true},
                  {"pump_off_s", quantile(losses->pump_s, 1.0), "s", "", true}};
-  out.runs_json =
-      json{{{"latch_s", *latched}, {"ramp_s", losses->ramp_s}, {"pump_off_s", losses->pump_s}}}
-          .dump();
+  out.runs_json = json{{{"latch_s", *latched},
+                        {"key_to_latch_s", *keys},
+                        {"ramp_s", losses->ramp_s},
+                        {"pump_off_s", losses->pump_s}}}
+                      .dump();
   out.notes = fmt::format(
-      "{} stops over ipc (request to acknowledgement, an upper bound of the latch); {} clients "
+      "{0} stops over ipc (request to acknowledgement, an upper bound of the latch); {0} presses "
+      "of the key in the "
+      "station's window under Xvfb (key event to acknowledgement shown); {1} clients "
       "killed with "
       "SIGKILL while jogging and spraying, worst shown; lost setpoints count from the kill, not "
       "from the last one.",
