@@ -2,6 +2,7 @@
 #include <filesystem>
 
 #include <CLI/CLI.hpp>
+#include <unistd.h>
 
 #include "common/config/resources.h"
 #include "common/core/atomic_file.h"
@@ -155,6 +156,23 @@ Result<std::unique_ptr<OperatorLink>> openLink(const Arguments& a, const RobotSe
                             clock, stop);
 }
 
+/// A bug of ours ends in the safe stop: the latch makes the control thread brake and cut the pumps
+/// in its next ticks, before the process ends. Should that thread be the one that failed, the
+/// devices' own watchdogs do it.
+class CheckFailureGuard {
+ public:
+  CheckFailureGuard(StopLatch& stop, const Clock& clock) {
+    setCheckFailureHandler([&stop, &clock](const std::string& what) {
+      stop.set("internal check: " + what, clock.now());
+      constexpr useconds_t kTimeToStop_us = 60'000;
+      usleep(kTimeToStop_us);
+    });
+  }
+  ~CheckFailureGuard() { setCheckFailureHandler({}); }
+  CheckFailureGuard(const CheckFailureGuard&) = delete;
+  CheckFailureGuard& operator=(const CheckFailureGuard&) = delete;
+};
+
 int printSettings(const Arguments& a) {
   auto settings = loadSettings(a);
   if (!settings) return fail(settings.error());
@@ -183,6 +201,7 @@ int run(Arguments a) {
   a.robot.version = KILN_VERSION;
   a.robot.environment = runtime.sim ? Environment::Sim : Environment::Replay;
   StopLatch stop;
+  const CheckFailureGuard guard(stop, runtime.clock());
   // A lockstep run must give the same report each time, so its mission is named by its world.
   a.robot.mission_uuid =
       a.robot.lockstep ? fmt::format("lockstep-{}", runtime.sim->world().seed) : randomUuid();
