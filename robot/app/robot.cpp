@@ -1,40 +1,16 @@
 #include "robot/app/robot.h"
 
-#include <atomic>
-#include <cmath>
+#include <algorithm>
 
 #include "common/config/resources.h"
 #include "common/core/log.h"
-#include "common/geom/frames.h"
-#include "robot/app/heat_localizer_sweep.h"
-#include "robot/app/mission_control.h"
-#include "robot/app/mission_report.h"
-#include "robot/app/telemetry_hub.h"
-#include "robot/safety/authority.h"
+#include "robot/app/robot_impl.h"
 
 namespace kiln {
+
 namespace {
 
 constexpr Duration kMissionPeriod = std::chrono::milliseconds(20);
-constexpr double kRest_radps = 0.02;  ///< joints and wheels below this stand still
-constexpr double kPumpRest_a = 0.3;
-
-std::optional<double> age(const std::optional<Stamp>& stamp, Stamp now) {
-  return stamp ? std::optional(toSeconds(now - *stamp)) : std::nullopt;
-}
-
-template <class T>
-std::optional<Stamp> stampOf(const std::optional<T>& state) {
-  return state ? std::optional(state->stamp) : std::nullopt;
-}
-
-/// Rules of Challenge 3: 6 points for the first litre on the burning place. What is burning is
-/// known by what was sprayed at, and litres are an estimate.
-double scoreEstimate(const WorldState& world) {
-  double best_l = 0.0;
-  for (const FirePlace& place : world.places) best_l = std::max(best_l, place.litres_est);
-  return 6.0 * std::min(best_l, 1.0);
-}
 
 template <class T>
 Result<T> loadResource(const std::string& resource) {
@@ -45,89 +21,11 @@ Result<T> loadResource(const std::string& resource) {
   return config;
 }
 
+}  // namespace
+
 void warnIfFailed(const Result<void>& started) {
   if (!started) logger("robot")->error("{}", started.error().message);
 }
-
-}  // namespace
-
-struct Robot::Impl {
-  Impl(const RobotSettings& settings_in, const RobotOptions& options_in, Devices devices_in,
-       const Clock& clock_in, Executor& executor, OperatorLink* link_in, StopLatch& stop_in,
-       RobotGeometry robot_in, ArenaMap arena_in, const SprayCalibration& spray_in,
-       std::vector<Macro> macros_in);
-  void start(Executor& executor);
-  void controlTick(Stamp now);
-  void missionTick(Stamp now);
-
-  void readSensors(Stamp now);
-  void takePerception(Stamp now);
-  void obeyOperators(Stamp now);
-  void startWhenReady(Stamp now);
-  void keepBooks(Stamp now);
-  void recordEstimate(Stamp image, const Eigen::Isometry3d& X_map_thermal);
-  void raiseAlarms(Stamp now);
-  void publish(Stamp now);
-  void runCameraOnDemand();
-  [[nodiscard]] RobotStatus status(Stamp now) const;
-  [[nodiscard]] Scene scene(Stamp now) const;
-  [[nodiscard]] PreflightInputs preflightInputs(Stamp now) const;
-  [[nodiscard]] bool atStandstill() const;
-  [[nodiscard]] Pose2 pose() const { return tracked.X_map_base; }
-  [[nodiscard]] std::string checkpointPath() const {
-    return options.state_dir.empty() ? std::string()
-                                     : options.state_dir + "/" + options.mission + ".checkpoint";
-  }
-  [[nodiscard]] std::optional<Eigen::Isometry3d> flange() const {
-    const auto state = devices.arm.state();
-    return state ? std::optional(robot.X_base_flange(state->q)) : std::nullopt;
-  }
-  Result<void> resume(Stamp now);
-
-  RobotSettings settings;
-  RobotOptions options;
-  Devices devices;
-  const Clock& clock;
-  OperatorLink* link;
-  StopLatch& stop;
-  RobotGeometry robot;
-  ArenaMap arena;
-
-  BaseController base;
-  ArmController arm;
-  PumpController pumps;
-  StateHistory history;
-  SelfFilter self_filter;
-  BoxMapAligner aligner;
-  HeatDetector detector;
-  PoseTracker tracker;
-  TrackedPose tracked;
-  PerceptionJobs perception;
-  DriveTo drive;
-  MoveArm move_arm;
-  WorldModel world;
-  HeatLocalizerSweep sweep;
-  FireMission mission;
-  MacroRunner macros;
-  Teleop teleop;
-  AlarmBook alarms;
-  Authority authority;
-  MissionControl control;
-  TelemetryHub telemetry;
-  MissionReport report;
-  LogSinkHandle log_sink;
-
-  std::vector<Check> checks;
-  FsmStatus fsm;
-  std::optional<HeatDetections> last_heat;
-  std::uint32_t resets_seen = 0;
-  std::optional<Stamp> mission_start;
-  std::uint64_t status_seq = 0;
-  bool storage_ok = true;
-  bool resume_pending = false;
-  bool camera_runs = false;
-  std::atomic<bool> ended{false}, succeeded{false};
-};
 
 Robot::Impl::Impl(const RobotSettings& settings_in, const RobotOptions& options_in,
                   Devices devices_in, const Clock& clock_in, Executor& executor,
@@ -259,8 +157,8 @@ void Robot::Impl::obeyOperators(Stamp now) {
   situation.mission_paused = fsm.paused;
   situation.ready = allOk(checks);
   situation.not_ready_reason = firstFailure(checks);
-  situation.view_age_s = std::min(age(perception.lastScan(), now).value_or(1e9),
-                                  age(telemetry.lastPicture(), now).value_or(1e9));
+  situation.view_age_s = std::min(ageOf(perception.lastScan(), now).value_or(1e9),
+                                  ageOf(telemetry.lastPicture(), now).value_or(1e9));
   Authority::Step step =
       authority.step(link->takeCommands(), link->operators(), link->takeStops(), situation, now);
   control.onReleased(step.released, now);
@@ -302,143 +200,6 @@ void Robot::Impl::recordEstimate(Stamp image, const Eigen::Isometry3d& X_map_the
   if (!estimate || estimate->stamp != image) return;
   report.addHeatEstimate({image, X_map_thermal.inverse() * estimate->p_map, estimate->range_m,
                           estimate->baseline_range_m, estimate->views, estimate->place});
-}
-
-void Robot::Impl::raiseAlarms(Stamp now) {
-  const auto arm_state = devices.arm.state();
-  const bool protective = arm_state && arm_state->safety == ArmSafetyMode::ProtectiveStop;
-  alarms.set("arm.protective_stop", protective, AlarmLevel::Warning, "Arm in protective stop",
-             "look at the arm, then hold Release protective stop", now);
-  alarms.set("devices.lost", !devices.connected(), AlarmLevel::Warning,
-             "No connection to the robot's devices",
-             "check power and kiln-sim; the robot stands still by itself", now);
-  const PumpTracking water = pumps.tracking();
-  alarms.set("pumps.no_current", water.no_current, AlarmLevel::Caution, "A pump draws no current",
-             "tank empty, hose blocked or cable loose: check, then spray again", now);
-  alarms.set("pose.lost", fsm.running && tracked.health == PoseHealth::Lost, AlarmLevel::Warning,
-             "Position lost", "drive by hand or call a reset", now);
-  alarms.set("teleop.too_near", control.mode() == Mode::Teleop && !teleop.blocked().empty(),
-             AlarmLevel::Advisory, "Arm jog stopped: " + teleop.blocked(), "jog away from it", now);
-  const auto mission_alarms = mission.alarms();
-  storage_ok = mission_alarms.empty();
-  alarms.set("storage", !storage_ok, AlarmLevel::Caution,
-             storage_ok ? "" : mission_alarms.front().text,
-             storage_ok ? "" : mission_alarms.front().action, now);
-  alarms.set("fsm.blocked", !fsm.blocked.empty(), AlarmLevel::Warning, fsm.blocked,
-             "press STOP and restart the daemon", now);
-  alarms.set("battery.low",
-             preflightInputs(now).battery_v > 1.0 &&
-                 preflightInputs(now).battery_v < settings.preflight.battery_min_v,
-             AlarmLevel::Caution, "Battery low", "finish and change the battery", now);
-}
-
-bool Robot::Impl::atStandstill() const {
-  const auto arm_state = devices.arm.state();
-  const auto base_state = devices.base.state();
-  const auto pump_state = devices.pumps.state();
-  if (!arm_state || !base_state || !pump_state) return false;
-  if (arm_state->qd.cwiseAbs().maxCoeff() > kRest_radps) return false;
-  for (const WheelState& wheel : base_state->wheels) {
-    if (std::abs(wheel.drive_radps) > kRest_radps * 5) return false;
-  }
-  return pump_state->current_a[0] < kPumpRest_a && pump_state->current_a[1] < kPumpRest_a;
-}
-
-PreflightInputs Robot::Impl::preflightInputs(Stamp now) const {
-  PreflightInputs in;
-  const auto arm_state = devices.arm.state();
-  const auto base_state = devices.base.state();
-  in.devices_connected = devices.connected();
-  in.arm_age_s = age(stampOf(arm_state), now);
-  in.base_age_s = age(stampOf(base_state), now);
-  in.pumps_age_s = age(stampOf(devices.pumps.state()), now);
-  in.lidar_age_s = age(perception.lastScan(), now);
-  in.thermal_age_s = age(perception.lastThermal(), now);
-  if (arm_state) in.arm_safety = arm_state->safety;
-  if (base_state) in.battery_v = base_state->battery_v;
-  if (last_heat && !last_heat->usable && !last_heat->blobs.empty()) in.thermal_usable = false;
-  in.pose_health = tracked.health;
-  in.storage_ok = storage_ok;
-  return in;
-}
-
-RobotStatus Robot::Impl::status(Stamp now) const {
-  RobotStatus s;
-  s.stamp = now;
-  s.seq = status_seq;
-  s.robot_name = settings.name;
-  s.version = options.version;
-  s.environment = options.environment;
-  s.mode = control.mode();
-  s.word = control.word(now, allOk(checks));
-  s.reason = s.word == StatusWord::NotReady ? firstFailure(checks) : control.reason();
-  s.checks = checks;
-  s.lease = authority.lease(now);
-  s.stop = {stop.latched(), stop.source(), stop.since(), stop.latched() && atStandstill()};
-  s.X_map_base = pose();
-  s.pose_age_s = tracked.age_s;
-  s.twist = base.tracking().measured;
-  if (const auto arm_state = devices.arm.state()) {
-    s.arm = *arm_state;
-    s.X_base_nozzle = robot.X_base_flange(arm_state->q) * robot.X_flange_nozzle.pose();
-  }
-  if (const auto base_state = devices.base.state()) {
-    for (std::size_t i = 0; i < 4; ++i) s.wheel_steer_rad[i] = base_state->wheels[i].steer_rad;
-    s.battery_v = base_state->battery_v;
-    s.battery_a = base_state->battery_a;
-  }
-  const PumpTracking water = pumps.tracking();
-  s.water = {water.duty, water.current_a, water.tank_l_est, water.sprayed_l_est};
-  s.macro = macros.status();
-  s.speed_scale = teleop.speedScale();
-  s.mission_elapsed_s = world.state().elapsedS(now);
-  s.mission_limit_s = settings.mission_limit_s;
-  s.resets = world.state().resets;
-  s.score_est = scoreEstimate(world.state());
-  s.alarms = alarms.list();
-  if (link) {
-    s.drops = link->drops();
-    for (const OperatorPeer& peer : link->operators()) s.operators.push_back(peer.name);
-  }
-  s.drops.push_back({"perception", perception.droppedFrames()});
-  return s;
-}
-
-Scene Robot::Impl::scene(Stamp now) const {
-  Scene scene;
-  scene.stamp = now;
-  scene.fires = mission.fires();
-  scene.places = mission.places();
-  scene.planned = {now, drive.waypoints(), drive.nextIndex()};
-  scene.jet = mission.jetPreview(now);
-  scene.arena = sceneBoxes(arena);
-  return scene;
-}
-
-/// Pictures cost the robot and the link more than everything else together: taken only while
-/// somebody watches.
-void Robot::Impl::runCameraOnDemand() {
-  if (!devices.operator_camera || !link) return;
-  const bool wanted = link->wanted(frames::kOperatorCamera);
-  if (wanted == camera_runs) return;
-  camera_runs = wanted;
-  if (wanted) {
-    warnIfFailed(devices.operator_camera->start(
-        [this](RgbImagePtr image) { telemetry.onPicture(std::move(image)); }));
-  } else {
-    devices.operator_camera->stop();
-  }
-}
-
-void Robot::Impl::publish(Stamp now) {
-  runCameraOnDemand();
-  if (telemetry.fsmDue(now, fsm.step)) telemetry.publish(fsm);
-  if (telemetry.statusDue(now)) {
-    ++status_seq;
-    telemetry.publish(status(now));
-  }
-  if (telemetry.sceneDue(now)) telemetry.publish(scene(now));
-  telemetry.flushLog(now);
 }
 
 Result<void> Robot::Impl::resume(Stamp now) {

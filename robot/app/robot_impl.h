@@ -1,0 +1,102 @@
+#pragma once
+
+// Private to robot*.cpp: what one robot is made of, in the order in which it is built.
+
+#include <atomic>
+
+#include "robot/app/heat_localizer_sweep.h"
+#include "robot/app/mission_control.h"
+#include "robot/app/mission_report.h"
+#include "robot/app/robot.h"
+#include "robot/app/telemetry_hub.h"
+#include "robot/safety/authority.h"
+
+namespace kiln {
+
+struct Robot::Impl {
+  Impl(const RobotSettings& settings_in, const RobotOptions& options_in, Devices devices_in,
+       const Clock& clock_in, Executor& executor, OperatorLink* link_in, StopLatch& stop_in,
+       RobotGeometry robot_in, ArenaMap arena_in, const SprayCalibration& spray_in,
+       std::vector<Macro> macros_in);
+  void start(Executor& executor);
+  void controlTick(Stamp now);
+  void missionTick(Stamp now);
+
+  void readSensors(Stamp now);
+  void takePerception(Stamp now);
+  void obeyOperators(Stamp now);
+  void startWhenReady(Stamp now);
+  void keepBooks(Stamp now);
+  void recordEstimate(Stamp image, const Eigen::Isometry3d& X_map_thermal);
+  void raiseAlarms(Stamp now);
+  void publish(Stamp now);
+  void runCameraOnDemand();
+  [[nodiscard]] RobotStatus status(Stamp now) const;
+  [[nodiscard]] Scene scene(Stamp now) const;
+  [[nodiscard]] PreflightInputs preflightInputs(Stamp now) const;
+  [[nodiscard]] bool atStandstill() const;
+  [[nodiscard]] Pose2 pose() const { return tracked.X_map_base; }
+  [[nodiscard]] std::string checkpointPath() const {
+    return options.state_dir.empty() ? std::string()
+                                     : options.state_dir + "/" + options.mission + ".checkpoint";
+  }
+  [[nodiscard]] std::optional<Eigen::Isometry3d> flange() const {
+    const auto state = devices.arm.state();
+    return state ? std::optional(robot.X_base_flange(state->q)) : std::nullopt;
+  }
+  Result<void> resume(Stamp now);
+
+  RobotSettings settings;
+  RobotOptions options;
+  Devices devices;
+  const Clock& clock;
+  OperatorLink* link;
+  StopLatch& stop;
+  RobotGeometry robot;
+  ArenaMap arena;
+
+  BaseController base;
+  ArmController arm;
+  PumpController pumps;
+  StateHistory history;
+  SelfFilter self_filter;
+  BoxMapAligner aligner;
+  HeatDetector detector;
+  PoseTracker tracker;
+  TrackedPose tracked;
+  PerceptionJobs perception;
+  DriveTo drive;
+  MoveArm move_arm;
+  WorldModel world;
+  HeatLocalizerSweep sweep;
+  FireMission mission;
+  MacroRunner macros;
+  Teleop teleop;
+  AlarmBook alarms;
+  Authority authority;
+  MissionControl control;
+  TelemetryHub telemetry;
+  MissionReport report;
+  LogSinkHandle log_sink;
+
+  std::vector<Check> checks;
+  FsmStatus fsm;
+  std::optional<HeatDetections> last_heat;
+  std::uint32_t resets_seen = 0;
+  std::optional<Stamp> mission_start;
+  std::uint64_t status_seq = 0;
+  bool storage_ok = true;
+  bool resume_pending = false;
+  bool camera_runs = false;
+  std::atomic<bool> ended{false}, succeeded{false};
+};
+
+/// Seconds since `stamp`; nullopt if it never was.
+[[nodiscard]] inline std::optional<double> ageOf(const std::optional<Stamp>& stamp, Stamp now) {
+  return stamp ? std::optional(toSeconds(now - *stamp)) : std::nullopt;
+}
+
+/// A device that does not start is a line in the log and a failing preflight check, not an end.
+void warnIfFailed(const Result<void>& started);
+
+}  // namespace kiln
