@@ -8,10 +8,14 @@ namespace kiln {
 
 Result<std::unique_ptr<LiveSystem>> LiveSystem::start(int seed,
                                                       const std::vector<std::string>& robot_args,
-                                                      const std::vector<std::string>& world_args) {
+                                                      const std::vector<std::string>& world_args,
+                                                      const std::string& programs) {
+  const auto program = [&](const std::string& name) {
+    return programs.empty() ? siblingProgram(name) : programs + "/" + name;
+  };
   std::unique_ptr<LiveSystem> live(new LiveSystem);
   const std::string socket = "ipc://" + live->scratch_.file("world");
-  std::vector<std::string> world{siblingProgram("kiln-sim"),
+  std::vector<std::string> world{program("kiln-sim"),
                                  "--seed",
                                  std::to_string(seed),
                                  "--listen",
@@ -22,7 +26,7 @@ Result<std::unique_ptr<LiveSystem>> LiveSystem::start(int seed,
   auto world_process = ChildProcess::start(world, live->scratch_.file("sim.log"));
   if (!world_process) return tl::make_unexpected(world_process.error());
   live->world_ = std::make_unique<ChildProcess>(std::move(*world_process));
-  std::vector<std::string> robot{siblingProgram("kiln-robotd"),
+  std::vector<std::string> robot{program("kiln-robotd"),
                                  "--sim",
                                  socket,
                                  "--state-dir",

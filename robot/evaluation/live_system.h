@@ -14,9 +14,10 @@ namespace kiln {
 /// sockets.
 class LiveSystem {
  public:
+  /// @param programs  folder of kiln-sim and kiln-robotd; empty = beside this program.
   [[nodiscard]] static Result<std::unique_ptr<LiveSystem>> start(
       int seed, const std::vector<std::string>& robot_args,
-      const std::vector<std::string>& world_args);
+      const std::vector<std::string>& world_args, const std::string& programs = {});
   [[nodiscard]] std::string linkEndpoint() const { return "ipc://" + scratch_.file("link"); }
   [[nodiscard]] Result<std::unique_ptr<ScriptedOperator>> connectOperator(
       const std::string& name) const;

@@ -1,0 +1,130 @@
+// A person at the station against the whole robot, in real time: modes, pause, forced transitions,
+// STOP, reset.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "robot/evaluation/live_system.h"
+
+namespace kiln {
+namespace {
+
+using std::chrono::seconds;
+using View = ScriptedOperator::View;
+
+class OperatorCommands : public testing::Test {
+ protected:
+  void SetUp() override {
+    auto live = LiveSystem::start(3, {}, {}, KILN_BINARY_DIR "/bin");
+    ASSERT_TRUE(live.has_value()) << live.error();
+    live_ = std::move(*live);
+    auto person = live_->connectOperator("Ann");
+    ASSERT_TRUE(person.has_value()) << person.error();
+    person_ = std::move(*person);
+    ASSERT_TRUE(waitForWord(StatusWord::Ready)) << person_->view().status->reason;
+    ASSERT_TRUE(takeLease());
+  }
+  testing::AssertionResult waitForWord(StatusWord word) {
+    const auto waited =
+        person_->waitFor(std::string(toString(word)), seconds(15),
+                         [&](const View& v) { return v.status && v.status->word == word; });
+    if (waited) return testing::AssertionSuccess();
+    return testing::AssertionFailure()
+           << waited.error() << "; it is " << toString(person_->view().status->word);
+  }
+  testing::AssertionResult takeLease() {
+    auto taken = person_->command(AcquireLease{});
+    if (taken)
+      taken = person_->waitFor("the lease", seconds(3), [](const View& v) { return v.lease.mine; });
+    return taken ? testing::AssertionSuccess() : testing::AssertionFailure() << taken.error();
+  }
+  testing::AssertionResult waitForSpeed(bool moving) {
+    const auto waited =
+        person_->waitFor(moving ? "motion" : "standstill", seconds(10), [&](const View& v) {
+          const double speed = std::hypot(v.status->twist.vx_mps, v.status->twist.vy_mps);
+          return moving ? speed > 0.1 : speed < 0.01;
+        });
+    return waited ? testing::AssertionSuccess() : testing::AssertionFailure() << waited.error();
+  }
+  std::unique_ptr<LiveSystem> live_;
+  std::unique_ptr<ScriptedOperator> person_;
+};
+
+TEST_F(OperatorCommands, PauseHoldsTheRobotAndResumeGoesOn) {
+  ASSERT_TRUE(person_->command(StartMission{}).has_value());
+  ASSERT_TRUE(waitForWord(StatusWord::Auto));
+  ASSERT_TRUE(waitForSpeed(true));
+  ASSERT_TRUE(person_->command(Pause{}).has_value());
+  ASSERT_TRUE(waitForWord(StatusWord::Paused));
+  ASSERT_TRUE(waitForSpeed(false));
+  ASSERT_TRUE(person_->command(Resume{}).has_value());
+  ASSERT_TRUE(waitForSpeed(true));
+}
+
+TEST_F(OperatorCommands, AForcedTransitionIsComparedWithWhatTheOperatorSaw) {
+  ASSERT_TRUE(person_->command(StartMission{}).has_value());
+  ASSERT_TRUE(waitForSpeed(true));
+  const auto wrong_step = person_->command(ChangeState{"EnterBuilding", 999, "ParkArm"});
+  ASSERT_FALSE(wrong_step.has_value());
+  EXPECT_EQ(person_->view().last_command->code, "moved") << wrong_step.error();
+  const auto nowhere = person_->command(ChangeState{"EnterBuilding", 1, "Nowhere"});
+  ASSERT_FALSE(nowhere.has_value());
+  EXPECT_EQ(person_->view().last_command->code, "no_such_state");
+  const auto forced = person_->command(ChangeState{"EnterBuilding", 1, "ParkArm"});
+  EXPECT_TRUE(forced.has_value()) << forced.error();
+}
+
+TEST_F(OperatorCommands, StopHaltsLatchesAndClearingMovesNothing) {
+  ASSERT_TRUE(person_->command(StartMission{}).has_value());
+  ASSERT_TRUE(waitForSpeed(true));
+  person_->session().stop();
+  ASSERT_TRUE(waitForWord(StatusWord::Stopped));
+  ASSERT_TRUE(person_
+                  ->waitFor("proof of standstill", seconds(10),
+                            [](const View& v) { return v.status->stop.standstill_proven; })
+                  .has_value());
+  ASSERT_TRUE(takeLease()) << "STOP revokes it";
+  EXPECT_FALSE(person_->command(Resume{}).has_value()) << "nothing moves while STOP is latched";
+  ASSERT_TRUE(person_->command(ClearStop{}).has_value());
+  ASSERT_TRUE(waitForWord(StatusWord::Paused)) << "the mission waits for a word of its own";
+  EXPECT_TRUE(waitForSpeed(false));
+}
+
+TEST_F(OperatorCommands, TeleopPausesTheMissionAndOnlyThenObeysTheStick) {
+  ASSERT_TRUE(person_->command(StartMission{}).has_value());
+  ASSERT_TRUE(waitForWord(StatusWord::Auto));
+  person_->session().hold(JogBase{{0.3, 0, 0}});
+  const auto refused = person_->waitFor("the refused jog", seconds(3), [](const View& v) {
+    return v.last_command && v.last_command->command == "jog_base" &&
+           v.last_command->code == "wrong_mode";
+  });
+  EXPECT_TRUE(refused.has_value()) << refused.error();
+  ASSERT_TRUE(person_->command(SetMode{Mode::Teleop}).has_value());
+  ASSERT_TRUE(waitForWord(StatusWord::Teleop));
+  ASSERT_TRUE(waitForSpeed(false));
+  const double from_x = person_->view().status->X_map_base.x_m;
+  const auto driven =
+      person_->holdWhile("jogging", seconds(10), [&](const View& v) -> std::optional<CommandBody> {
+        if (v.status->X_map_base.x_m < from_x - 0.1) return std::nullopt;
+        return JogBase{{-0.6, 0, 0}};
+      });
+  EXPECT_TRUE(driven.has_value()) << driven.error();
+  EXPECT_TRUE(waitForSpeed(false));
+}
+
+TEST_F(OperatorCommands, AResetBringsTheRobotBackAndTheClockRunsOn) {
+  ASSERT_TRUE(person_->command(StartMission{}).has_value());
+  const auto away = person_->waitFor("a metre of way", seconds(20),
+                                     [](const View& v) { return v.status->X_map_base.x_m > 1.0; });
+  ASSERT_TRUE(away.has_value()) << away.error();
+  const double elapsed_s = person_->view().status->mission_elapsed_s;
+  ASSERT_TRUE(person_->command(ResetRobot{}).has_value());
+  const auto back = person_->waitFor("the robot at its start", seconds(10), [](const View& v) {
+    return v.status->resets == 1 && std::abs(v.status->X_map_base.x_m) < 0.6;
+  });
+  EXPECT_TRUE(back.has_value()) << back.error();
+  EXPECT_GE(person_->view().status->mission_elapsed_s, elapsed_s);
+}
+
+}  // namespace
+}  // namespace kiln
