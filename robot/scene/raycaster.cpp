@@ -9,77 +9,12 @@
 #include <xmmintrin.h>
 
 #include "common/core/check.h"
+#include "robot/scene/primitive_meshes.h"
 
 namespace kiln {
 namespace {
 
 constexpr std::size_t kPacket = 16;
-constexpr int kCylinderSides = 32;
-constexpr int kSphereRings = 12;
-
-struct Mesh {
-  std::vector<Eigen::Vector3f> vertices;
-  std::vector<Eigen::Vector3i> triangles;
-  void quad(int a, int b, int c, int d) {
-    triangles.emplace_back(a, b, c);
-    triangles.emplace_back(a, c, d);
-  }
-};
-
-Mesh unitBox() {
-  Mesh m;
-  for (int i = 0; i < 8; ++i)
-    m.vertices.emplace_back(i & 1 ? .5F : -.5F, i & 2 ? .5F : -.5F, i & 4 ? .5F : -.5F);
-  m.quad(0, 2, 3, 1);
-  m.quad(4, 5, 7, 6);
-  m.quad(0, 1, 5, 4);
-  m.quad(2, 6, 7, 3);
-  m.quad(0, 4, 6, 2);
-  m.quad(1, 3, 7, 5);
-  return m;
-}
-
-/// Radius 1, height 1, along Z.
-Mesh unitCylinder() {
-  Mesh m;
-  for (int i = 0; i < kCylinderSides; ++i) {
-    const double angle = 2.0 * M_PI * i / kCylinderSides;
-    const float x = static_cast<float>(std::cos(angle)), y = static_cast<float>(std::sin(angle));
-    m.vertices.emplace_back(x, y, -.5F);
-    m.vertices.emplace_back(x, y, .5F);
-  }
-  const int bottom = 2 * kCylinderSides, top = bottom + 1;
-  m.vertices.emplace_back(0.F, 0.F, -.5F);
-  m.vertices.emplace_back(0.F, 0.F, .5F);
-  for (int i = 0; i < kCylinderSides; ++i) {
-    const int j = (i + 1) % kCylinderSides;
-    m.quad(2 * i, 2 * j, 2 * j + 1, 2 * i + 1);
-    m.triangles.emplace_back(bottom, 2 * j, 2 * i);
-    m.triangles.emplace_back(top, 2 * i + 1, 2 * j + 1);
-  }
-  return m;
-}
-
-Mesh unitSphere() {
-  Mesh m;
-  const int sides = 2 * kSphereRings;
-  for (int r = 0; r <= kSphereRings; ++r) {
-    const double polar = M_PI * r / kSphereRings;
-    for (int s = 0; s < sides; ++s) {
-      const double angle = 2.0 * M_PI * s / sides;
-      m.vertices.emplace_back(static_cast<float>(std::sin(polar) * std::cos(angle)),
-                              static_cast<float>(std::sin(polar) * std::sin(angle)),
-                              static_cast<float>(std::cos(polar)));
-    }
-  }
-  for (int r = 0; r < kSphereRings; ++r) {
-    for (int s = 0; s < sides; ++s) {
-      const int t = (s + 1) % sides;
-      m.quad(r * sides + s, (r + 1) * sides + s, (r + 1) * sides + t, r * sides + t);
-    }
-  }
-  return m;
-}
 
 /// Embree is fastest, and alike everywhere, with denormals off (its manual). Restores the caller's
 /// mode.
@@ -118,13 +53,13 @@ struct Raycaster::Impl {
   std::array<RTCScene, 3> shapes{};  // unit box, cylinder, sphere
   std::vector<Instance> instances;
 
-  RTCScene makeScene(const Mesh& mesh) const;
+  RTCScene makeScene(const TriangleMesh& mesh) const;
   Id add(RTCScene shape, bool own, const Eigen::Vector3d& scale, const Eigen::Isometry3d& X,
          std::uint32_t material, std::uint32_t mask);
   void setTransform(Instance& instance, const Eigen::Isometry3d& X) const;
 };
 
-RTCScene Raycaster::Impl::makeScene(const Mesh& mesh) const {
+RTCScene Raycaster::Impl::makeScene(const TriangleMesh& mesh) const {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   auto* v = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
                                                         RTC_FORMAT_FLOAT3, 3 * sizeof(float),
@@ -219,7 +154,7 @@ Raycaster::Id Raycaster::addMesh(std::span<const Eigen::Vector3f> vertices,
                                  std::span<const Eigen::Vector3i> triangles,
                                  const Eigen::Isometry3d& X, std::uint32_t material,
                                  std::uint32_t mask) {
-  Mesh mesh;
+  TriangleMesh mesh;
   mesh.vertices.assign(vertices.begin(), vertices.end());
   mesh.triangles.assign(triangles.begin(), triangles.end());
   for (const Eigen::Vector3i& t : mesh.triangles) {

@@ -7,7 +7,8 @@ namespace kiln::sim {
 namespace {
 
 constexpr int kWidth = 160, kHeight = 120;
-constexpr float kSkyC = 10.0F;  // clear sky seen over the walls
+constexpr double kRounding = 1e-6;  // of a frame: stamps are whole nanoseconds
+constexpr float kSkyC = 10.0F;      // clear sky seen over the walls
 constexpr double kZeroCelsius = 273.15;
 constexpr float kWarmC = 36.0F;   // rims of cooler things matter to nobody
 constexpr float kMotorC = 33.0F;  // joints of a working arm
@@ -36,7 +37,8 @@ ThermalSensor::ThermalSensor(const ThermalConfig& config, const RobotGeometry& r
 
 Stamp ThermalSensor::nextFrame(Stamp now) const {
   const double frame_s = 1.0 / config_.rate_hz;
-  const auto index = static_cast<std::int64_t>(std::floor(toSeconds(now) / frame_s + 1e-9)) + 1;
+  const auto index =
+      static_cast<std::int64_t>(std::floor(toSeconds(now) / frame_s + kRounding)) + 1;
   return Stamp{fromSeconds(static_cast<double>(index) * frame_s)};
 }
 

@@ -1,0 +1,65 @@
+#include "robot/scene/primitive_meshes.h"
+
+#include <cmath>
+
+namespace kiln {
+namespace {
+constexpr int kCylinderSides = 32;
+constexpr int kSphereRings = 12;
+}  // namespace
+
+TriangleMesh unitBox() {
+  TriangleMesh m;
+  for (int i = 0; i < 8; ++i)
+    m.vertices.emplace_back(i & 1 ? .5F : -.5F, i & 2 ? .5F : -.5F, i & 4 ? .5F : -.5F);
+  m.quad(0, 2, 3, 1);
+  m.quad(4, 5, 7, 6);
+  m.quad(0, 1, 5, 4);
+  m.quad(2, 6, 7, 3);
+  m.quad(0, 4, 6, 2);
+  m.quad(1, 3, 7, 5);
+  return m;
+}
+
+TriangleMesh unitCylinder() {
+  TriangleMesh m;
+  for (int i = 0; i < kCylinderSides; ++i) {
+    const double angle = 2.0 * M_PI * i / kCylinderSides;
+    const float x = static_cast<float>(std::cos(angle)), y = static_cast<float>(std::sin(angle));
+    m.vertices.emplace_back(x, y, -.5F);
+    m.vertices.emplace_back(x, y, .5F);
+  }
+  const int bottom = 2 * kCylinderSides, top = bottom + 1;
+  m.vertices.emplace_back(0.F, 0.F, -.5F);
+  m.vertices.emplace_back(0.F, 0.F, .5F);
+  for (int i = 0; i < kCylinderSides; ++i) {
+    const int j = (i + 1) % kCylinderSides;
+    m.quad(2 * i, 2 * j, 2 * j + 1, 2 * i + 1);
+    m.triangles.emplace_back(bottom, 2 * j, 2 * i);
+    m.triangles.emplace_back(top, 2 * i + 1, 2 * j + 1);
+  }
+  return m;
+}
+
+TriangleMesh unitSphere() {
+  TriangleMesh m;
+  const int sides = 2 * kSphereRings;
+  for (int r = 0; r <= kSphereRings; ++r) {
+    const double polar = M_PI * r / kSphereRings;
+    for (int s = 0; s < sides; ++s) {
+      const double angle = 2.0 * M_PI * s / sides;
+      m.vertices.emplace_back(static_cast<float>(std::sin(polar) * std::cos(angle)),
+                              static_cast<float>(std::sin(polar) * std::sin(angle)),
+                              static_cast<float>(std::cos(polar)));
+    }
+  }
+  for (int r = 0; r < kSphereRings; ++r) {
+    for (int s = 0; s < sides; ++s) {
+      const int t = (s + 1) % sides;
+      m.quad(r * sides + s, (r + 1) * sides + s, (r + 1) * sides + t, r * sides + t);
+    }
+  }
+  return m;
+}
+
+}  // namespace kiln
