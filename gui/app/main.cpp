@@ -2,6 +2,8 @@
 #include <QDir>
 #include <QSurfaceFormat>
 #include <QTimer>
+#include <atomic>
+#include <csignal>
 #include <cstdlib>
 #include <iostream>
 #include <memory>
@@ -18,6 +20,20 @@
 
 namespace kiln::gui {
 namespace {
+
+std::atomic<bool> asked_to_quit = false;
+void askToQuit(int) { asked_to_quit = true; }
+
+/// A signal ends the event loop as closing the window does, so that holds are released and pictures
+/// are written.
+void quitOnSignal(QTimer& timer) {
+  std::signal(SIGINT, askToQuit);
+  std::signal(SIGTERM, askToQuit);
+  QObject::connect(&timer, &QTimer::timeout, [] {
+    if (asked_to_quit) QApplication::quit();
+  });
+  timer.start(100);
+}
 
 constexpr int kNoDisplay = 2;
 constexpr int kLastLook_ms = 1500;
@@ -109,11 +125,14 @@ int run(int argc, char** argv, const StationOptions& options) {
       QApplication::quit();
     });
   }
+  QTimer signal_timer;
+  quitOnSignal(signal_timer);
   link->open();
   const int code = QApplication::exec();
   link->close();
+  const bool pictures_written = !screenshots || screenshots->finish();
   if (options.stall_report) std::cout << stalls.report().toStdString() << std::endl;
-  return code;
+  return pictures_written ? code : EXIT_FAILURE;
 }
 
 }  // namespace

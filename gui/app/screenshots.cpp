@@ -2,22 +2,29 @@
 
 #include <QPixmap>
 #include <iostream>
+#include <utility>
 
 namespace kiln::gui {
 
 Screenshots::Screenshots(QWidget& window, StationModels& models, const QDir& folder,
                          QObject* parent)
-    : QObject(parent), window_(window), models_(models), folder_(folder) {
+    : QObject(parent),
+      window_(window),
+      models_(models),
+      folder_(folder),
+      writer_([this](std::stop_token stop) { write(stop); }) {
   timer_.setSingleShot(true);
-  connect(&timer_, &QTimer::timeout, this, [this] {
-    save(std::exchange(pending_, QString{}));
-    const FsmStatus* status = models_.fsm.status();
-    if (!status || !status->terminal) return;
-    save(QStringLiteral("mission-end"));
-    emit missionEnded();
-  });
+  connect(&timer_, &QTimer::timeout, this, &Screenshots::takePending);
   connect(&models_.fsm, &FsmModel::stateEntered, this, &Screenshots::onState);
   if (!models_.fsm.current().isEmpty()) onState(models_.fsm.current());
+}
+
+Screenshots::~Screenshots() { finish(); }
+
+void Screenshots::takePending() {
+  save(std::exchange(pending_, QString{}));
+  const FsmStatus* status = models_.fsm.status();
+  if (status && status->terminal) save(QStringLiteral("mission-end"));
 }
 
 void Screenshots::onState(const QString& name) {
@@ -27,13 +34,37 @@ void Screenshots::onState(const QString& name) {
   timer_.start(kDelay_ms);
 }
 
-bool Screenshots::save(const QString& name) {
-  const QString file = folder_.filePath(
-      QStringLiteral("%1-%2.png").arg(++count_, 2, 10, QLatin1Char('0')).arg(name));
-  if (window_.grab().save(file)) return true;
-  std::cerr << "kiln-station: cannot write " << file.toStdString()
-            << "; is the disk full or the folder read-only?\n";
-  return false;
+void Screenshots::save(const QString& name) {
+  const QString file = QStringLiteral("%1-%2.png").arg(++count_, 2, 10, QLatin1Char('0')).arg(name);
+  QImage image = window_.grab().toImage();
+  const std::lock_guard lock(mutex_);
+  waiting_.push_back({folder_.filePath(file), std::move(image)});
+  wake_.notify_one();
+}
+
+bool Screenshots::finish() {
+  if (writer_.joinable()) {
+    writer_.request_stop();
+    writer_.join();
+  }
+  return !failed_;
+}
+
+void Screenshots::write(std::stop_token stop) {
+  for (;;) {
+    Picture picture;
+    {
+      std::unique_lock lock(mutex_);
+      wake_.wait(lock, stop, [this] { return !waiting_.empty(); });
+      if (waiting_.empty()) return;  // asked to stop, and all is written
+      picture = std::move(waiting_.front());
+      waiting_.pop_front();
+    }
+    if (picture.image.save(picture.file)) continue;
+    failed_ = true;
+    std::cerr << "kiln-station: cannot write " << picture.file.toStdString()
+              << "; is the disk full or the folder read-only?\n";
+  }
 }
 
 }  // namespace kiln::gui

@@ -1,5 +1,7 @@
 #include "gui/models/lease_model.h"
 
+#include <algorithm>
+
 namespace kiln::gui {
 
 LeaseModel::LeaseModel(Link& link, CommandTracker& commands, QObject* parent)
@@ -23,6 +25,13 @@ QString LeaseModel::holderName() const { return QString::fromStdString(lease_.ho
 bool LeaseModel::requesting() const {
   const TrackedCommand* command = commands_.find(request_);
   return command && command->phase == CommandPhase::Sent;
+}
+
+QString LeaseModel::askedBy() const {
+  if (!mine() || lease_.requested_by_client.empty()) return {};
+  return tr("%1 asks (%2 s)")
+      .arg(QString::fromStdString(lease_.requested_by_name))
+      .arg(std::max(0.0, lease_.request_expires_in_s), 0, 'f', 0);
 }
 
 QString LeaseModel::refusal() const {

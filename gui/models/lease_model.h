@@ -18,6 +18,9 @@ class LeaseModel : public Model {
   [[nodiscard]] const LeaseStatus& lease() const { return lease_; }
   /// True from a request until the robot's answer shows.
   [[nodiscard]] bool requesting() const;
+  /// Who asks us to hand over, with the seconds left to answer; empty = nobody. Doing nothing keeps
+  /// the lease.
+  [[nodiscard]] QString askedBy() const;
   /// Why the last request was refused; empty when it was not.
   [[nodiscard]] QString refusal() const;
   void request(bool take_over = false);

@@ -27,7 +27,7 @@ QString styleSheet(const Palette& p) {
     QScrollBar::add-line, QScrollBar::sub-line, QScrollBar::add-page, QScrollBar::sub-page
       { background: none; height: 0; width: 0; }
     QScrollArea, QAbstractScrollArea { border: none; background: transparent; }
-    QCheckBox, QLabel { background: transparent; color: %2; }
+    QCheckBox, QLabel { background: transparent; }
   )")
       .arg(p.raised.name(), p.text.name(), p.border.name(), p.sunk.name(), p.active.name());
 }

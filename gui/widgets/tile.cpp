@@ -150,7 +150,9 @@ void Tile::restyle() {
   const Palette& p = ui_.theme.colors();
   const auto paint = [](QLabel* label, const QColor& color, const QFont& font) {
     label->setFont(font);
-    label->setStyleSheet(QStringLiteral("color: %1").arg(color.name()));
+    QPalette colors = label->palette();
+    colors.setColor(QPalette::WindowText, color);
+    label->setPalette(colors);
   };
   paint(title_, p.dim, ui_.theme.font(TextRole::Strong));
   paint(info_, p.dim, ui_.theme.font(TextRole::Small));

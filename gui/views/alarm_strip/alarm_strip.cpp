@@ -105,8 +105,8 @@ void AlarmStrip::paintEvent(QPaintEvent*) {
   const AlarmLevel level = top ? top->alarm.level : AlarmLevel::Advisory;
   const bool warning = top && level == AlarmLevel::Warning;
   const bool caution = top && level == AlarmLevel::Caution;
-  painter.setPen(QPen(warning ? p.fault : p.border, 1));
-  painter.setBrush(warning ? p.fault_fill : caution ? p.caution_fill : p.panel);
+  painter.setPen(QPen(warning ? p.fault : caution ? p.caution : p.border, 1));
+  painter.setBrush(warning ? p.fault_fill : p.panel);
   painter.drawRoundedRect(QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5), 4, 4);
   const int right = (top ? acknowledge_ : log_)->x() - 10;
   const QFont small = ui_.theme.font(TextRole::Small);

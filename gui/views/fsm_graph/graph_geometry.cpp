@@ -11,7 +11,7 @@ constexpr double kLaneGap_px = 6.0;
 constexpr double kHeader_px = 21.0;
 constexpr double kMinColumn_px = 112.0;
 constexpr double kMinPitch_px = 44.0;
-constexpr double kMaxPitch_px = 78.0;
+constexpr double kMaxPitch_px = 92.0;
 constexpr double kGutterShare = 0.075;
 constexpr double kTwinOffset_px = 9.0;
 

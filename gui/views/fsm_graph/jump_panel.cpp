@@ -20,10 +20,10 @@ JumpPanel::JumpPanel(const Ui& ui, StationModels& models, ForcedJump& jump, QWid
       start_(new HoldButton(ui, tr("Start mission"), kHold_s)),
       pause_(new ActButton(ui, tr("Pause"))),
       arm_(new HoldButton(ui, tr("Arm forced jump"), kHold_s)),
-      card_(new QLabel),
+      card_(new Banner(ui)),
       confirm_(new HoldButton(ui, tr("Jump"), kHold_s)),
       cancel_(new ActButton(ui, tr("Cancel"))),
-      message_(new QLabel) {
+      message_(new Banner(ui, TextRole::Small)) {
   start_->setKind(ActKind::Primary);
   start_->setSubtext(tr("hold 1 s"));
   arm_->setKind(ActKind::Forced);
@@ -31,9 +31,6 @@ JumpPanel::JumpPanel(const Ui& ui, StationModels& models, ForcedJump& jump, QWid
   confirm_->setKind(ActKind::Forced);
   confirm_->setSubtext(tr("hold 1 s"));
   cancel_->setSubtext(tr("Esc"));
-  card_->setWordWrap(true);
-  message_->setWordWrap(true);
-  message_->setAlignment(Qt::AlignLeft | Qt::AlignVCenter);
   for (ActButton* button : {static_cast<ActButton*>(start_), pause_, static_cast<ActButton*>(arm_),
                             static_cast<ActButton*>(confirm_), cancel_}) {
     button->setFixedHeight(kButton_px);
@@ -99,7 +96,6 @@ void JumpPanel::refreshMission() {
 }
 
 void JumpPanel::refresh() {
-  const Palette& p = ui_.theme.colors();
   const ForcedJump::Phase phase = jump_.phase();
   const bool picked = phase == ForcedJump::Phase::Picked;
   const bool asking = picked || phase == ForcedJump::Phase::Armed;
@@ -109,24 +105,15 @@ void JumpPanel::refresh() {
                            : tr("pick a state above"));
   cancel_->setSubtext(asking ? tr("Esc · %1 s").arg(std::ceil(jump_.leftS()), 0, 'f', 0)
                              : tr("Esc"));
-  card_->setVisible(picked);
-  if (picked) {
-    card_->setText(tr("Leave <b>%1</b>, enter <b>%2</b><br>%3")
-                       .arg(models_.fsm.label(jump_.from()), models_.fsm.label(jump_.target()),
-                            jump_.consequence()));
-  }
-  card_->setFont(ui_.theme.font(TextRole::Body));
-  card_->setStyleSheet(
-      QStringLiteral(
-          "color: %1; background: %2; border: 1px solid %3; border-radius: 3px; padding: 6px;")
-          .arg(p.text.name(), p.forced_fill.name(), p.forced.name()));
+  card_->set(picked ? tr("Leave <b>%1</b>, enter <b>%2</b><br>%3")
+                          .arg(models_.fsm.label(jump_.from()), models_.fsm.label(jump_.target()),
+                               jump_.consequence())
+                    : QString{},
+             BannerKind::Forced);
   const QString text =
       phase == ForcedJump::Phase::Sent ? tr("sent, waiting for the robot …") : jump_.message();
-  message_->setVisible(!text.isEmpty());
-  message_->setText((jump_.failed() ? QStringLiteral("✕ ") : QString{}) + text);
-  message_->setFont(ui_.theme.font(TextRole::Small));
-  message_->setStyleSheet(
-      QStringLiteral("color: %1").arg((jump_.failed() ? p.caution : p.text).name()));
+  message_->set(jump_.failed() && !text.isEmpty() ? QStringLiteral("✕ ") + text : text,
+                jump_.failed() ? BannerKind::Caution : BannerKind::Plain);
 }
 
 void JumpPanel::pauseOrResume() {

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <QLabel>
 #include <QStackedWidget>
 
 #include "gui/models/forced_jump.h"
 #include "gui/models/station_models.h"
+#include "gui/widgets/banner.h"
 #include "gui/widgets/hold_button.h"
 
 namespace kiln::gui {
@@ -32,10 +32,10 @@ class JumpPanel : public QWidget {
   HoldButton* start_;
   ActButton* pause_;
   HoldButton* arm_;
-  QLabel* card_;
+  Banner* card_;
   HoldButton* confirm_;
   ActButton* cancel_;
-  QLabel* message_;
+  Banner* message_;
 };
 
 }  // namespace kiln::gui

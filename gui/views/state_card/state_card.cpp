@@ -19,11 +19,11 @@ StateCard::StateCard(const Ui& ui, StationModels& models, ForcedJump& jump, QWid
       ui_(ui),
       models_(models),
       jump_(jump),
-      notice_(new QLabel),
-      display_(new QLabel),
+      notice_(new Banner(ui)),
+      display_(new Banner(ui)),
       ticks_(new TickList(ui)),
       release_(new HoldButton(ui, tr("Release protective stop"), 1.0)),
-      exits_title_(new QLabel(tr("Go to instead"))),
+      exits_title_(new Banner(ui, TextRole::Small)),
       exits_grid_(new QGridLayout) {
   auto* body = new QWidget;
   auto* column = new QVBoxLayout(body);
@@ -31,8 +31,7 @@ StateCard::StateCard(const Ui& ui, StationModels& models, ForcedJump& jump, QWid
   column->setSpacing(6);
   release_->setKind(ActKind::Caution);
   release_->setSubtext(tr("hold 1 s; the arm stays where it is"));
-  notice_->setWordWrap(true);
-  display_->setWordWrap(true);
+  exits_title_->setDim(true);
   exits_grid_->setContentsMargins(0, 0, 0, 0);
   exits_grid_->setSpacing(6);
   column->addWidget(notice_);
@@ -69,8 +68,8 @@ std::vector<TickList::Row> StateCard::guardRows(const FsmStatus& fsm) const {
       row.mark = TickList::Mark::Attention;
     }
     if (guard.input_age_s >= kInputShown_s) {
-      row.detail += (row.detail.isEmpty() ? QString{} : QStringLiteral(" · ")) +
-                    tr("%1 ago").arg(ageText(guard.input_age_s));
+      row.detail +=
+          (row.detail.isEmpty() ? QString{} : QStringLiteral(" · ")) + ageText(guard.input_age_s);
     } else if (never && row.detail.isEmpty()) {
       row.detail = tr("no input yet");
     }
@@ -104,11 +103,11 @@ void StateCard::refreshHeader(const FsmStatus& fsm) {
 }
 
 void StateCard::refreshNotice() {
-  const Palette& p = ui_.theme.colors();
   const RobotStatus* status = models_.status.status();
   const FsmStatus* fsm = models_.fsm.status();
   QString text;
   bool fault = false;
+  bool good = false;
   if (status && models_.status.word() == StatusWord::Stopped) {
     text = tr("<b>Stopped</b>: %1. %2")
                .arg(QString::fromStdString(status->stop.source), status->stop.standstill_proven
@@ -118,18 +117,15 @@ void StateCard::refreshNotice() {
   } else if (status && needsRelease(status->arm.safety)) {
     text = tr("<b>Protective stop of the arm.</b> Look at the arm, then release it.");
     fault = true;
+  } else if (fsm && fsm->terminal) {
+    good = fsm->success;
+    text = good ? tr("✓ <b>Mission succeeded.</b>") : tr("<b>Mission ended without success.</b>");
   } else if (fsm && !fsm->blocked.empty()) {
     text = tr("<b>Mission blocked</b>: %1").arg(QString::fromStdString(fsm->blocked));
   } else if (fsm && fsm->paused && status && status->word == StatusWord::Paused) {
     text = tr("<b>Paused.</b> The robot holds; the state's clock stands.");
   }
-  notice_->setVisible(!text.isEmpty());
-  notice_->setText(text);
-  notice_->setFont(ui_.theme.font(TextRole::Body));
-  notice_->setStyleSheet(
-      QStringLiteral("color: %1; background: %2; border-left: 4px solid %3; padding: 5px 8px;")
-          .arg(p.text.name(), (fault ? p.fault_fill : p.caution_fill).name(),
-               (fault ? p.fault : p.caution).name()));
+  notice_->set(text, fault ? BannerKind::Fault : good ? BannerKind::Good : BannerKind::Caution);
   release_->setVisible(status && needsRelease(status->arm.safety));
   release_->setEnabled(models_.mayCommand());
 }
@@ -145,13 +141,7 @@ void StateCard::refresh() {
   ticks_->setRows(not_ready ? checkRows(*status)
                   : fsm     ? guardRows(*fsm)
                             : std::vector<TickList::Row>{});
-  const QString display = fsm ? QString::fromStdString(fsm->display_text) : QString{};
-  display_->setText(display);
-  display_->setVisible(!display.isEmpty());
-  display_->setFont(ui_.theme.font(TextRole::Body));
-  display_->setStyleSheet(QStringLiteral("color: %1").arg(ui_.theme.colors().text.name()));
-  exits_title_->setFont(ui_.theme.font(TextRole::Small));
-  exits_title_->setStyleSheet(QStringLiteral("color: %1").arg(ui_.theme.colors().dim.name()));
+  display_->set(fsm ? QString::fromStdString(fsm->display_text) : QString{});
   refreshExits();
 }
 
@@ -185,7 +175,7 @@ void StateCard::refreshExits() {
     button->setToolTip(may ? tr("%1\nThen hold to jump, below the graph.").arg(button->subtext())
                            : why);
   }
-  exits_title_->setVisible(!exits_.empty());
+  exits_title_->set(exits_.empty() ? QString{} : tr("Go to instead"));
 }
 
 }  // namespace kiln::gui

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <QLabel>
 #include <vector>
 
 #include "gui/models/forced_jump.h"
 #include "gui/models/station_models.h"
 #include "gui/views/state_card/tick_list.h"
+#include "gui/widgets/banner.h"
 #include "gui/widgets/hold_button.h"
 #include "gui/widgets/tile.h"
 
@@ -34,11 +34,11 @@ class StateCard : public Tile {
   Ui ui_;
   StationModels& models_;
   ForcedJump& jump_;
-  QLabel* notice_;
-  QLabel* display_;
+  Banner* notice_;
+  Banner* display_;
   TickList* ticks_;
   HoldButton* release_;
-  QLabel* exits_title_;
+  Banner* exits_title_;
   QGridLayout* exits_grid_;
   std::vector<ActButton*> exits_;
   QString exits_of_;

@@ -61,7 +61,7 @@ void TickList::paintEvent(QPaintEvent*) {
     const int y = static_cast<int>(i) * kRow_px;
     paintMark(painter, QRectF(0, y, kMark_px - 4, kRow_px), row.mark);
     const int detail = QFontMetrics(small).horizontalAdvance(row.detail);
-    const int shown = std::min(detail, width() / 2);
+    const int shown = std::min(detail, width() * 3 / 5);
     painter.setFont(small);
     painter.setPen(row.mark == Mark::Attention && row.level == AgeLevel::Fresh
                        ? p.caution

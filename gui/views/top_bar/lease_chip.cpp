@@ -31,7 +31,7 @@ QString LeaseChip::text() const {
     case LeaseHolder::Free:
       return tr("Nobody in control");
     case LeaseHolder::Mine:
-      return tr("You in control");
+      return lease_.askedBy().isEmpty() ? tr("You in control") : lease_.askedBy();
     case LeaseHolder::Other:
       return tr("%1 in control").arg(lease_.holderName());
   }
@@ -47,11 +47,14 @@ void LeaseChip::act() {
 
 void LeaseChip::refresh() {
   const LeaseHolder holder = lease_.holder();
-  button_->setText(lease_.requesting()            ? tr("asking …")
-                   : holder == LeaseHolder::Mine  ? tr("Release")
+  button_->setText(lease_.requesting() ? tr("asking …")
+                   : holder == LeaseHolder::Mine
+                       ? lease_.askedBy().isEmpty() ? tr("Release") : tr("Hand over")
                    : holder == LeaseHolder::Other ? tr("Take over")
                                                   : tr("Request"));
-  button_->setKind(holder == LeaseHolder::Free ? ActKind::Primary : ActKind::Normal);
+  button_->setKind(holder == LeaseHolder::Free   ? ActKind::Primary
+                   : !lease_.askedBy().isEmpty() ? ActKind::Caution
+                                                 : ActKind::Normal);
   button_->setEnabled(holder != LeaseHolder::Unknown && !lease_.requesting());
   setToolTip(lease_.refusal().isEmpty()
                  ? tr("The lease lets one station command the robot. STOP needs no lease.")
