@@ -21,11 +21,12 @@ StationModels::StationModels(Link& link_in, QObject* parent)
       log(link),
       trends(link) {
   connect(&flush_timer_, &QTimer::timeout, this, &StationModels::flush);
-  connect(&age_timer_, &QTimer::timeout, this, [this] {
+  // First of all listeners: what the station itself watches is up to date when the views look.
+  connect(this, &StationModels::aged, this, [this] {
     watchLink();
     watchViews();
-    emit aged();
   });
+  connect(&age_timer_, &QTimer::timeout, this, &StationModels::aged);
   connect(&commands, &CommandTracker::progressed, this, [this](const TrackedCommand& command) {
     if (command.bad())
       log.addOwn(3, command.label + ": " + toText(command.phase) + ", " + command.reason);

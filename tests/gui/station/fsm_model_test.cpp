@@ -1,0 +1,50 @@
+#include "gui/models/fsm_model.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/gui/station/stepped_station.h"
+
+namespace kiln::gui {
+namespace {
+
+TEST(FsmModel, KeepsVisitsTimesAndEdgesOfTheWholeMission) {
+  SteppedStation station;
+  station.link.robot().startMission();
+  station.pass(200.0);
+  const FsmModel& fsm = station.models.fsm;
+  EXPECT_EQ(fsm.current(), "MissionDone");
+  EXPECT_EQ(fsm.record("DriveToLocation").visits, 2);
+  EXPECT_EQ(fsm.record("NextLocation").visits, 3);
+  EXPECT_EQ(fsm.timesTaken("NextLocation", "DriveToLocation"), 2);
+  EXPECT_EQ(fsm.timesTaken("AimHose", "LostTarget"), 0);
+  EXPECT_GT(fsm.record("SpraySteady").last_s, 14.0);
+  EXPECT_EQ(fsm.recency("MissionDone"), 0);
+  EXPECT_EQ(fsm.recency("NextLocation"), 1);
+  EXPECT_EQ(fsm.recency("StopPump"), 2);
+  EXPECT_EQ(fsm.recency("EnterBuilding"), -1);
+}
+
+TEST(FsmModel, TheClockOfAStateStandsWhileTheLinkIsSilent) {
+  SteppedStation station;
+  station.link.robot().startMission();
+  station.pass(4.0);
+  const double before = station.models.fsm.timeInStateS();
+  station.link.setSilent(true);
+  station.pass(60.0);
+  EXPECT_LT(station.models.fsm.timeInStateS(), before + 2.0);
+}
+
+TEST(FsmModel, MarksForcedTransitions) {
+  SteppedStation station;
+  station.takeLease();
+  station.link.robot().startMission();
+  station.pass(1.0);
+  const auto step = station.models.fsm.status()->step;
+  station.models.commands.send(ChangeState{"EnterBuilding", step, "SafeStop"}, "jump");
+  station.settle();
+  EXPECT_EQ(station.models.fsm.visits().back().cause, TransitionCause::Operator);
+  EXPECT_EQ(station.models.fsm.visits().back().note, "you");
+}
+
+}  // namespace
+}  // namespace kiln::gui

@@ -1,0 +1,64 @@
+#include <gtest/gtest.h>
+
+#include "tests/gui/station/stepped_station.h"
+
+namespace kiln::gui {
+namespace {
+
+TEST(Staleness, StatusIsAmberAtOneAndAHalfAndRedAtThreeSeconds) {
+  SteppedStation station;
+  station.pass(2.0);
+  EXPECT_EQ(station.models.status.ageLevel(), AgeLevel::Fresh);
+  station.link.setSilent(true);
+  station.pass(1.4);
+  EXPECT_EQ(station.models.status.ageLevel(), AgeLevel::Fresh);
+  station.pass(0.2);
+  EXPECT_EQ(station.models.status.ageLevel(), AgeLevel::Amber);
+  EXPECT_NE(station.models.status.word(), StatusWord::NoLink);
+  station.pass(1.5);
+  EXPECT_EQ(station.models.status.ageLevel(), AgeLevel::Red);
+  EXPECT_EQ(station.models.status.word(), StatusWord::NoLink) << "old words must not stand";
+  EXPECT_EQ(station.models.lease.holder(), LeaseHolder::Unknown);
+  EXPECT_FALSE(station.models.mayCommand());
+}
+
+TEST(Staleness, RepeatingAnOldPictureDoesNotMakeItYoung) {
+  SteppedStation station;
+  auto frozen = std::make_shared<RgbImage>();
+  frozen->frame = "operator_camera";
+  frozen->stamp = station.link.clock().now();
+  for (int i = 0; i < 30; ++i) {
+    station.pass(0.1);
+    emit station.link.image(frozen);
+  }
+  EXPECT_NEAR(station.models.camera.ageS(), 3.0, 0.01);
+  EXPECT_EQ(station.models.camera.ageLevel(), AgeLevel::Red);
+}
+
+TEST(Staleness, ALostLinkRaisesAnAlarmThatOutlivesItUntilAcknowledged) {
+  SteppedStation station;
+  station.pass(2.0);
+  station.link.setSilent(true);
+  station.pass(2.0);
+  ASSERT_NE(station.models.alarms.top(), nullptr);
+  EXPECT_EQ(station.models.alarms.top()->alarm.id, "station.link_lost");
+  EXPECT_EQ(station.models.alarms.top()->alarm.level, AlarmLevel::Warning);
+  station.link.setSilent(false);
+  station.pass(1.0);
+  ASSERT_NE(station.models.alarms.top(), nullptr);
+  EXPECT_FALSE(station.models.alarms.top()->alarm.active);
+  station.models.alarms.acknowledge("station.link_lost");
+  EXPECT_EQ(station.models.alarms.top(), nullptr);
+}
+
+TEST(Staleness, ADeafRobotIsTold) {
+  SteppedStation station;
+  station.pass(2.0);
+  station.link.setDeaf(true);
+  station.pass(1.0);
+  ASSERT_NE(station.models.alarms.top(), nullptr);
+  EXPECT_EQ(station.models.alarms.top()->alarm.id, "station.not_heard");
+}
+
+}  // namespace
+}  // namespace kiln::gui

@@ -1,0 +1,80 @@
+#include "gui/views/top_bar/top_bar.h"
+
+#include <QTest>
+
+#include <gtest/gtest.h>
+
+#include "gui/views/top_bar/lease_chip.h"
+#include "gui/views/top_bar/status_word.h"
+#include "gui/views/top_bar/stop_button.h"
+#include "tests/gui/station/stepped_station.h"
+
+namespace kiln::gui {
+namespace {
+
+class TopBarTest : public testing::Test {
+ protected:
+  TopBarTest() {
+    bar.resize(1680, 48);
+    bar.show();
+    station.pass(2.0);
+  }
+  SteppedStation station;
+  Theme theme;
+  TopBar bar{{theme, station.link.clock()}, station.models};
+};
+
+TEST_F(TopBarTest, TheLeaseChipTellsWhoIsInControl) {
+  EXPECT_EQ(bar.leaseChip()->text(), "Nobody in control");
+  QTest::mouseClick(bar.leaseChip()->button(), Qt::LeftButton);
+  station.settle();
+  EXPECT_EQ(bar.leaseChip()->text(), "You in control");
+  EXPECT_EQ(bar.leaseChip()->button()->text(), "Release");
+  QTest::mouseClick(bar.leaseChip()->button(), Qt::LeftButton);
+  station.settle();
+  station.link.robot().handle("another", "Ada", AcquireLease{});
+  station.pass(0.2);
+  EXPECT_EQ(bar.leaseChip()->text(), "Ada in control");
+  EXPECT_EQ(bar.leaseChip()->button()->text(), "Take over");
+}
+
+TEST_F(TopBarTest, StopWorksWithoutTheLeaseAtThePressAndShowsItsStages) {
+  station.link.robot().handle("another", "Ada", AcquireLease{});
+  station.pass(0.2);
+  EXPECT_EQ(bar.stopButton()->caption(), "software");
+  QTest::mousePress(bar.stopButton(), Qt::LeftButton);  // no release needed
+  station.settle();
+  EXPECT_EQ(bar.stopButton()->caption(), "latched");
+  EXPECT_EQ(bar.statusBlock()->word(), "STOPPED");
+  station.pass(1.0);
+  EXPECT_EQ(bar.stopButton()->caption(), "standstill ✓");
+}
+
+TEST_F(TopBarTest, ClearingAStopNeedsTheLeaseAndTheFullHold) {
+  station.models.stop.press();
+  station.settle();
+  EXPECT_TRUE(bar.clearButton()->isVisible());
+  EXPECT_FALSE(bar.clearButton()->isEnabled());
+  station.takeLease();
+  ASSERT_TRUE(bar.clearButton()->isEnabled());
+  QTest::mousePress(bar.clearButton(), Qt::LeftButton);
+  station.link.advance(0.8);
+  bar.clearButton()->tick();
+  EXPECT_TRUE(station.models.stop.latched());
+  station.link.advance(0.3);
+  bar.clearButton()->tick();
+  station.settle();
+  EXPECT_FALSE(station.models.stop.latched());
+  EXPECT_FALSE(bar.clearButton()->isVisible());
+}
+
+TEST_F(TopBarTest, AStopLaneWithoutAPeerSaysSo) {
+  station.link.setSilent(true);
+  station.pass(4.0);
+  EXPECT_EQ(bar.stopButton()->caption(), "NO LINK");
+  EXPECT_EQ(bar.statusBlock()->word(), "NO LINK");
+  EXPECT_EQ(bar.leaseChip()->text(), "Lease unknown");
+}
+
+}  // namespace
+}  // namespace kiln::gui
