@@ -133,10 +133,10 @@ TEST_F(SimLinkTest, CommandsThatAreNotFiniteAreNeverSent) {
   });
   auto link = SimLink::connect(config, clock);
   ASSERT_TRUE(link.has_value()) << link.error();
-  ArmServo bad;
+  kiln::ArmServo bad;
   bad.q[2] = std::nan("");
   EXPECT_FALSE((*link)->arm().servo(bad).has_value());
-  WheelCommands wheels{};
+  kiln::WheelCommands wheels{};
   wheels[1].drive_radps = INFINITY;
   EXPECT_FALSE((*link)->base().write(wheels).has_value());
   EXPECT_FALSE((*link)->pumps().write({std::nan(""), 0}).has_value());
