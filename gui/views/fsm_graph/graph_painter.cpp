@@ -28,6 +28,23 @@ QString duration(double s) {
 }
 }  // namespace
 
+QStringList breakLabel(const QString& label, const QFont& font, double width_px) {
+  const QFontMetricsF metrics(font);
+  if (metrics.horizontalAdvance(label) <= width_px) return {label};
+  QStringList best{label};
+  double best_width = metrics.horizontalAdvance(label);
+  for (int at = label.indexOf(QLatin1Char(' ')); at > 0;
+       at = label.indexOf(QLatin1Char(' '), at + 1)) {
+    const QStringList halves{label.left(at), label.mid(at + 1)};
+    const double width =
+        std::max(metrics.horizontalAdvance(halves[0]), metrics.horizontalAdvance(halves[1]));
+    if (width >= best_width) continue;
+    best_width = width;
+    best = halves;
+  }
+  return best;
+}
+
 void GraphPainter::paint() {
   painter_.setRenderHint(QPainter::Antialiasing);
   lanes();
@@ -155,13 +172,20 @@ void GraphPainter::node(const GraphLayout::Node& node, const QRectF& box) {
   label.setWeight(current ? QFont::DemiBold : QFont::Medium);
   painter_.setFont(label);
   painter_.setPen(on_active ? p.active_text : p.text);
-  const QRectF text = box.adjusted(2, 2, -2, -2);
-  const QString name =
-      QFontMetricsF(label).elidedText(fsm.label(node.name), Qt::ElideRight, text.width());
-  if (below.isEmpty()) {
-    painter_.drawText(text, Qt::AlignCenter, name);
-  } else {
-    painter_.drawText(text, Qt::AlignHCenter | Qt::AlignTop, name);
+  const QRectF text = box.adjusted(2, 1, -2, -2);
+  QStringList lines = breakLabel(fsm.label(node.name), label, text.width());
+  const QFontMetricsF metrics(label);
+  // With a label of two lines the time goes behind the second, as far as there is room.
+  if (lines.size() > 1 && !below.isEmpty()) {
+    const QString joined =
+        lines.last() + QStringLiteral(" · ") + below.section(QStringLiteral(" · "), 0, 0);
+    if (metrics.horizontalAdvance(joined) <= text.width()) lines.last() = joined;
+    below.clear();
+  }
+  for (QString& line : lines) line = metrics.elidedText(line, Qt::ElideRight, text.width());
+  painter_.drawText(text, (below.isEmpty() ? Qt::AlignVCenter : Qt::AlignTop) | Qt::AlignHCenter,
+                    lines.join(QLatin1Char('\n')));
+  if (!below.isEmpty()) {
     painter_.setFont(in_.theme.font(TextRole::Small));
     painter_.setPen(on_active ? mixed(p.active, p.active_text, 0.85) : p.dim);
     painter_.drawText(text, Qt::AlignHCenter | Qt::AlignBottom, below);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QPainter>
+#include <QStringList>
 
 #include "gui/models/forced_jump.h"
 #include "gui/models/station_models.h"
@@ -8,6 +9,10 @@
 #include "gui/widgets/theme.h"
 
 namespace kiln::gui {
+
+/// A label on one line if it fits, else broken at a space so that the longer half is as short as
+/// can be.
+[[nodiscard]] QStringList breakLabel(const QString& label, const QFont& font, double width_px);
 
 /// Draws one frame of the graph in the layout's own pixels. Holds references for the length of one
 /// paint.

@@ -7,6 +7,7 @@
 
 #include "gui/link/fake_robot.h"
 #include "gui/views/fsm_graph/graph_geometry.h"
+#include "gui/views/fsm_graph/graph_painter.h"
 #include "gui/widgets/theme.h"
 
 namespace kiln::gui {
@@ -66,9 +67,11 @@ TEST(GraphGeometry, LabelsFitTheirBoxesAtNinePointsInANarrowTile) {
   font.setWeight(QFont::DemiBold);
   for (std::size_t i = 0; i < info.states.size(); ++i) {
     const int at = layout.index.value(QString::fromStdString(info.states[i].name));
-    EXPECT_LE(QFontMetricsF(font).horizontalAdvance(QString::fromStdString(info.states[i].label)),
-              geometry.nodes()[static_cast<std::size_t>(at)].width() - 4)
-        << info.states[i].label;
+    const double width = geometry.nodes()[static_cast<std::size_t>(at)].width() - 4;
+    for (const QString& line :
+         breakLabel(QString::fromStdString(info.states[i].label), font, width)) {
+      EXPECT_LE(QFontMetricsF(font).horizontalAdvance(line), width) << info.states[i].label;
+    }
   }
   for (std::size_t i = 0; i < geometry.nodes().size(); ++i) {
     for (std::size_t j = i + 1; j < geometry.nodes().size(); ++j) {

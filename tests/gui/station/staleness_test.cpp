@@ -26,6 +26,7 @@ TEST(Staleness, RepeatingAnOldPictureDoesNotMakeItYoung) {
   SteppedStation station;
   auto frozen = std::make_shared<RgbImage>();
   frozen->frame = "operator_camera";
+  frozen->data.resize(3);
   frozen->stamp = station.link.clock().now();
   for (int i = 0; i < 30; ++i) {
     station.pass(0.1);
