@@ -233,7 +233,6 @@ TEST_F(SimLinkTest, RealTimeReportsArriveByThemselvesInTheDaemonsClock) {
     zmq::pollitem_t none{nullptr, -1, 0, 0};
     zmq::poll(&none, 0, std::chrono::milliseconds(5));
   }
-  EXPECT_EQ(toSeconds(*(*link)->lastReportAge()), 2.0);
   // The lost world answers the next hello: the link comes back by itself.
   for (int i = 0; i < 1000 && (*link)->reconnects() == 0; ++i) {
     zmq::pollitem_t none{nullptr, -1, 0, 0};
