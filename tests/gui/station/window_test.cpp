@@ -46,8 +46,11 @@ TEST_P(WindowTest, NothingIsSqueezedOrCutOff) {
         (grandparent && grandparent->inherits("QAbstractScrollArea")))
       continue;
     EXPECT_TRUE(parent->rect().adjusted(-2, -2, 2, 2).contains(child->geometry()))
-        << child->metaObject()->className() << " sticks out of "
-        << parent->metaObject()->className();
+        << child->metaObject()->className() << " '"
+        << child->property("text").toString().toStdString() << "' sticks out of "
+        << parent->metaObject()->className() << " by "
+        << child->geometry().right() - parent->rect().right() << " px to the right, "
+        << child->geometry().bottom() - parent->rect().bottom() << " px below";
   }
 }
 
