@@ -73,7 +73,7 @@ QWidget* JogPanel::buildArmModes() {
   auto* bar = new QWidget;
   auto* row = new QHBoxLayout(bar);
   row->setContentsMargins(0, 0, 0, 0);
-  row->setSpacing(1);
+  row->setSpacing(0);
   const auto add = [&](const QString& text, const QString& tip, int id) {
     auto* button = new QToolButton;
     button->setText(text);
