@@ -9,7 +9,7 @@
 
 namespace kiln::gui {
 namespace {
-constexpr int kWordButton_px = 30, kJointButton_px = 15;
+constexpr int kWordButton_px = 28, kJointButton_px = 13;
 constexpr int kFirstJoint = 2;  // ids of the mode buttons: 0 Move, 1 Turn, 2..7 joints 1..6
 }  // namespace
 
