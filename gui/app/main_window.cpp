@@ -18,6 +18,7 @@
 #include "gui/views/thermal/thermal_tile.h"
 #include "gui/views/timeline/timeline_view.h"
 #include "gui/views/top_bar/top_bar.h"
+#include "gui/widgets/act_button.h"
 
 namespace kiln::gui {
 
@@ -26,12 +27,15 @@ constexpr int kFrame_px = 4;
 constexpr int kGap_px = 6;
 constexpr double kLeftShare = 0.262;
 constexpr double kRightShare = 0.240;
-constexpr int kLeftMin_px = 352, kLeftMax_px = 470;
-constexpr int kRightMin_px = 330, kRightMax_px = 430;
+constexpr int kLeftMin_px = 340, kLeftMax_px = 470;
+constexpr int kRightMin_px = 366, kRightMax_px = 430;
 constexpr double kImagesShare = 0.20;
-constexpr int kImagesMin_px = 168, kImagesMax_px = 300;
+constexpr int kImagesMin_px = 186, kImagesMax_px = 300;
+/// Below this height take-over and macros share one place, with two tabs.
+constexpr int kLow_px = 900;
+constexpr int kTab_px = 30;
 constexpr double kBottomShare = 0.21;
-constexpr int kBottomMin_px = 150, kBottomMax_px = 250;
+constexpr int kBottomMin_px = 140, kBottomMax_px = 250;
 }  // namespace
 
 MainWindow::MainWindow(const Ui& ui, StationModels& models, const Options& options)
@@ -80,15 +84,45 @@ QBoxLayout* MainWindow::makeMiddle(const Options& options) {
   images->addWidget(new CameraTile(ui_, models_), 1);
   centre->addWidget(images_);
   middle->addLayout(centre, 1);
+  middle->addWidget(makeRight());
+  return middle;
+}
+
+QWidget* MainWindow::makeRight() {
   right_ = new QWidget;
   auto* right = new QVBoxLayout(right_);
   right->setContentsMargins(0, 0, 0, 0);
   right->setSpacing(kGap_px);
+  tabs_ = new QWidget;
+  auto* tabs = new QHBoxLayout(tabs_);
+  tabs->setContentsMargins(0, 0, 0, 0);
+  tabs->setSpacing(kGap_px);
+  teleop_tab_ = new ActButton(ui_, tr("Take over"));
+  macros_tab_ = new ActButton(ui_, tr("Macros and water"));
+  for (ActButton* tab : {teleop_tab_, macros_tab_}) {
+    tab->setFixedHeight(kTab_px);
+    tabs->addWidget(tab, 1);
+    connect(tab, &QAbstractButton::clicked, this, [this, tab] {
+      macros_in_front_ = tab == macros_tab_;
+      arrangeRight();
+    });
+  }
+  teleop_ = new TeleopTile(ui_, hold_);
+  macros_ = new MacrosTile(ui_, hold_);
   right->addWidget(state_, 1);
-  right->addWidget(new TeleopTile(ui_, hold_));
-  right->addWidget(new MacrosTile(ui_, hold_));
-  middle->addWidget(right_);
-  return middle;
+  right->addWidget(tabs_);
+  right->addWidget(teleop_);
+  right->addWidget(macros_);
+  return right_;
+}
+
+void MainWindow::arrangeRight() {
+  const bool low = height() < kLow_px;
+  tabs_->setVisible(low);
+  teleop_->setVisible(!low || !macros_in_front_);
+  macros_->setVisible(!low || macros_in_front_);
+  teleop_tab_->setKind(macros_in_front_ ? ActKind::Normal : ActKind::Primary);
+  macros_tab_->setKind(macros_in_front_ ? ActKind::Primary : ActKind::Normal);
 }
 
 QWidget* MainWindow::makeBottom() {
@@ -151,6 +185,7 @@ void MainWindow::resizeEvent(QResizeEvent*) {
   fsm_->setFixedWidth(share(width(), kLeftShare, kLeftMin_px, kLeftMax_px));
   right_->setFixedWidth(share(width(), kRightShare, kRightMin_px, kRightMax_px));
   images_->setFixedHeight(share(height(), kImagesShare, kImagesMin_px, kImagesMax_px));
+  arrangeRight();
   const int bottom = share(height(), kBottomShare, kBottomMin_px, kBottomMax_px);
   timeline_tile_->setFixedHeight(bottom);
   log_tile_->setFixedHeight(bottom);

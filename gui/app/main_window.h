@@ -13,6 +13,7 @@ class QStackedLayout;
 
 namespace kiln::gui {
 
+class ActButton;
 class AlarmStrip;
 class FsmTile;
 class MacrosTile;
@@ -49,6 +50,8 @@ class MainWindow : public QWidget {
   enum class Frame { None, Driving, Degraded };
   [[nodiscard]] Frame frame() const;
   QBoxLayout* makeMiddle(const Options& options);
+  QWidget* makeRight();
+  void arrangeRight();
   QWidget* makeBottom();
   void refreshFrame();
   void refreshTimelineTile();
@@ -63,6 +66,11 @@ class MainWindow : public QWidget {
   SceneTile* scene_ = nullptr;
   QWidget* images_ = nullptr;
   QWidget* right_ = nullptr;
+  QWidget* tabs_ = nullptr;  ///< of a low window, where take-over and macros share one place
+  ActButton *teleop_tab_ = nullptr, *macros_tab_ = nullptr;
+  TeleopTile* teleop_ = nullptr;
+  MacrosTile* macros_ = nullptr;
+  bool macros_in_front_ = false;
   Tile* timeline_tile_ = nullptr;
   TimelineView* timeline_ = nullptr;
   Tile* log_tile_ = nullptr;
