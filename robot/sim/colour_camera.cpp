@@ -15,12 +15,15 @@ namespace {
 constexpr int kBlock = 4;
 constexpr std::size_t kNoiseTable = 1u << 16;
 constexpr float kPaneTint = 0.20F;
+constexpr float kPaneRadius = 0.40F;   // m, encloses a fire box
+constexpr float kShadowReach = 60.0F;  // m
 const Eigen::Vector3f kPaneColour(206, 228, 232);
 
 /// Everything seen along one ray.
 struct Sample {
   Raycaster::Hit hit;
   bool pane = false;  // acrylic in front
+  int patch = 0;      // surfacePatch()
   float sunlit = 1.0F;
 };
 
@@ -37,6 +40,10 @@ struct ColourCamera::Impl {
             CameraModel::fromHorizontalFov(config.camera.width, config.camera.height,
                                            config.camera.hfov_deg * M_PI / 180.0)
                 .fx)) {
+    for (const TrueFirePlace& place : arena.fire_places) {
+      fire_boxes.emplace_back(
+          (place.X_map_front * Eigen::Vector3d(-0.5 * place.box_m, 0, 0)).cast<float>());
+    }
     Random random(0, "camera noise");
     for (std::size_t i = 0; i < kNoiseTable; ++i) {
       noise.push_back(static_cast<std::int8_t>(std::lround(random.normal(config.camera.noise))));
@@ -53,6 +60,8 @@ struct ColourCamera::Impl {
     return through(u, v).normalized();
   }
   void castSamples(std::vector<Sample>& samples);
+  void castPanes(std::vector<Sample>& samples);
+  void castShadows(std::vector<Sample>& samples);
   [[nodiscard]] Eigen::Vector3f colour(const Sample& s, const Eigen::Vector3f& d) const;
   [[nodiscard]] bool plain(int column, int row) const;
   void fillPlain(int column, int row, std::vector<std::uint8_t>& out);
@@ -69,7 +78,9 @@ struct ColourCamera::Impl {
   float focal;
   Eigen::Matrix3f R;
   Eigen::Vector3f origin;
-  std::vector<Raycaster::Ray> rays, sun_rays;
+  std::vector<Eigen::Vector3f> fire_boxes;  ///< centres in map
+  std::vector<std::size_t> special;         ///< rays that need a second look
+  std::vector<Raycaster::Ray> rays, special_rays;
   std::vector<Raycaster::Hit> hits, panes;
   std::vector<std::uint8_t> shadows;
   std::vector<Sample> corners, details;
@@ -78,28 +89,59 @@ struct ColourCamera::Impl {
   std::uint64_t seq = 0;
 };
 
+/// Acrylic before what the rays have met; asked only of rays that pass near a fire box.
+void ColourCamera::Impl::castPanes(std::vector<Sample>& samples) {
+  special.clear();
+  special_rays.clear();
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const auto meets = [&](const Eigen::Vector3f& centre) {
+      const Eigen::Vector3f way = centre - origin;
+      const float along = way.dot(rays[i].direction);
+      return along > 0.0F && way.squaredNorm() - along * along < kPaneRadius * kPaneRadius;
+    };
+    if (std::none_of(fire_boxes.begin(), fire_boxes.end(), meets)) continue;
+    special.push_back(i);
+    special_rays.push_back(rays[i]);
+    special_rays.back().mask = mask::kAcrylic;
+  }
+  panes.resize(special.size());
+  scene.rays().cast(special_rays, panes, true);
+  for (std::size_t k = 0; k < special.size(); ++k) {
+    Sample& s = samples[special[k]];
+    s.pane = panes[k].valid() && (!s.hit.valid() || panes[k].range < s.hit.range);
+  }
+}
+
+void ColourCamera::Impl::castShadows(std::vector<Sample>& samples) {
+  special.clear();
+  special_rays.clear();
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const Raycaster::Hit& hit = samples[i].hit;
+    if (!hit.valid() || hit.normal.dot(light.to_sun) <= 0.0F)
+      continue;  // turned away: the light is 0 anyway
+    special.push_back(i);
+    special_rays.push_back({rays[i].origin + hit.range * rays[i].direction + 0.003F * hit.normal,
+                            light.to_sun, kShadowReach,
+                            mask::kSolid | mask::kRobot | mask::kGripper});
+  }
+  shadows.resize(special.size());
+  scene.rays().occluded(special_rays, shadows);
+  for (std::size_t k = 0; k < special.size(); ++k)
+    samples[special[k]].sunlit = shadows[k] != 0 ? 0.0F : 1.0F;
+}
+
 /// For the rays in `rays`: nearest surface, acrylic before it, shadow on it.
 void ColourCamera::Impl::castSamples(std::vector<Sample>& samples) {
   hits.resize(rays.size());
-  panes.resize(rays.size());
   samples.assign(rays.size(), Sample{});
   scene.rays().cast(rays, hits, true);
-  for (Raycaster::Ray& ray : rays) ray.mask = mask::kAcrylic;
-  scene.rays().cast(rays, panes, true);
-  sun_rays.clear();
   for (std::size_t i = 0; i < rays.size(); ++i) {
     samples[i].hit = hits[i];
-    samples[i].pane = panes[i].valid() && (!hits[i].valid() || panes[i].range < hits[i].range);
-    Raycaster::Ray sun;
-    sun.origin = rays[i].origin + hits[i].range * rays[i].direction + 0.003F * hits[i].normal;
-    sun.direction = light.to_sun;
-    sun.max_range = hits[i].valid() && hits[i].normal.dot(light.to_sun) > 0.0F ? 60.0F : 0.0F;
-    sun.mask = mask::kSolid | mask::kRobot | mask::kGripper;
-    sun_rays.push_back(sun);
+    samples[i].patch =
+        surfacePatch(RayScene::material(hits[i]), origin + hits[i].range * rays[i].direction);
   }
-  shadows.assign(rays.size(), 0);
-  scene.rays().occluded(sun_rays, shadows);
-  for (std::size_t i = 0; i < rays.size(); ++i) samples[i].sunlit = shadows[i] != 0 ? 0.0F : 1.0F;
+  castPanes(samples);
+  castShadows(samples);
 }
 
 Eigen::Vector3f ColourCamera::Impl::colour(const Sample& s, const Eigen::Vector3f& d) const {
@@ -145,7 +187,11 @@ void ColourCamera::Impl::fillPlain(int column, int row, std::vector<std::uint8_t
   const Material material = RayScene::material(a.hit);
   const int u0 = column * kBlock, v0 = row * kBlock;
   const Eigen::Vector3f first = through(static_cast<float>(u0), static_cast<float>(v0));
-  if (!a.hit.valid() || (even && !patterned(material))) {
+  const int patch = a.patch;
+  const bool one_patch = patch >= 0 && patch == corner(column + 1, row).patch &&
+                         patch == corner(column, row + 1).patch &&
+                         patch == corner(column + 1, row + 1).patch;
+  if (!a.hit.valid() || (even && one_patch)) {
     const Eigen::Vector3f c = colour(a, first.normalized());
     for (int k = 0; k < kBlock * kBlock; ++k) put(out, u0 + k % kBlock, v0 + k / kBlock, c);
     return;

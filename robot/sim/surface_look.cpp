@@ -8,6 +8,9 @@ namespace {
 
 using Colour = Eigen::Vector3f;
 
+// Metres: floor tiles inside, slabs outside, half-widths of the lines between them.
+constexpr float kTile = 0.5F, kJoint = 0.008F, kSlab = 2.0F, kLine = 0.02F;
+
 Colour mix(const Colour& a, const Colour& b, float share) {
   return a + std::clamp(share, 0.0F, 1.0F) * (b - a);
 }
@@ -30,12 +33,12 @@ bool inBuilding(const Eigen::Vector3f& p) {
 
 Colour floorColour(const Eigen::Vector3f& p) {
   if (!inBuilding(p)) {
-    const bool line = onLine(p.x(), 2.0F, 0.02F) || onLine(p.y(), 2.0F, 0.02F);
+    const bool line = onLine(p.x(), kSlab, kLine) || onLine(p.y(), kSlab, kLine);
     return line ? Colour(150, 148, 142) : Colour(128, 126, 122);
   }
-  const bool joint = onLine(p.x(), 0.5F, 0.008F) || onLine(p.y(), 0.5F, 0.008F);
+  const bool joint = onLine(p.x(), kTile, kJoint) || onLine(p.y(), kTile, kJoint);
   if (joint) return {120, 112, 104};
-  const int tile = wholePart(p.x() * 2.0F) + wholePart(p.y() * 2.0F);
+  const int tile = wholePart(p.x() / kTile) + wholePart(p.y() / kTile);
   return tile % 2 == 0 ? Colour(196, 184, 168) : Colour(184, 172, 156);
 }
 
@@ -95,8 +98,16 @@ SurfaceLook surfaceLook(Material material, const Eigen::Vector3f& p, const Eigen
   }
 }
 
-bool patterned(Material material) {
-  return material == Material::Floor || material == Material::Wall || material == Material::Flame;
+int surfacePatch(Material material, const Eigen::Vector3f& p) {
+  if (material == Material::Flame) return -1;
+  if (material == Material::Wall)
+    return p.z() < 0.10F ? 1 : p.z() < 1.10F ? 2 : p.z() < 1.14F ? 3 : 4;
+  if (material != Material::Floor) return 0;
+  const bool inside = inBuilding(p);
+  const float pitch = inside ? kTile : kSlab, half = inside ? kJoint : kLine;
+  if (onLine(p.x(), pitch, half) || onLine(p.y(), pitch, half)) return -1;
+  const int cell = 4096 * (wholePart(p.x() / pitch) + 2048) + wholePart(p.y() / pitch) + 2048;
+  return 2 * cell + (inside ? 1 : 0);
 }
 
 Eigen::Vector3f Daylight::strength(const Eigen::Vector3f& normal, float sunlit) const {

@@ -24,8 +24,9 @@ struct Daylight {
 [[nodiscard]] SurfaceLook surfaceLook(Material material, const Eigen::Vector3f& p,
                                       const Eigen::Vector3f& normal, double temperature_c);
 
-/// Whether the colour changes from place to place (floor, walls); else one call serves a whole
-/// face.
-[[nodiscard]] bool patterned(Material material);
+/// Names the evenly coloured patch (floor tile, band of a wall) of a surface that p lies in: where
+/// all corners of a convex piece share a patch, the piece has one colour. -1: finer than that (a
+/// joint between tiles, the flame).
+[[nodiscard]] int surfacePatch(Material material, const Eigen::Vector3f& p);
 
 }  // namespace kiln::sim
