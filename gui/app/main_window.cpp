@@ -25,9 +25,9 @@ namespace kiln::gui {
 namespace {
 constexpr int kFrame_px = 4;
 constexpr int kGap_px = 6;
-constexpr double kLeftShare = 0.262;
+constexpr double kLeftShare = 0.285;
 constexpr double kRightShare = 0.240;
-constexpr int kLeftMin_px = 340, kLeftMax_px = 470;
+constexpr int kLeftMin_px = 340, kLeftMax_px = 500;
 constexpr int kRightMin_px = 366, kRightMax_px = 430;
 constexpr double kImagesShare = 0.20;
 constexpr int kImagesMin_px = 186, kImagesMax_px = 300;
