@@ -221,6 +221,10 @@ int run(Arguments a) {
   } else {
     runtime.threads->start();
     runRealTime(done);
+    // The stations shall see how it ended before the link goes.
+    constexpr Duration kFarewell = std::chrono::seconds(3);
+    const Stamp farewell = runtime.clock().now() + kFarewell;
+    runRealTime([&] { return !a.exit_when_done || runtime.clock().now() >= farewell; });
     runtime.threads->stop();
   }
   if (!a.report.empty()) {
