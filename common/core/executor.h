@@ -37,8 +37,9 @@ struct TickStatistics {
 class Executor {
  public:
   virtual ~Executor() = default;
-  /// Queues a job. At most one job of a kind is in flight, waiting or running, so that a kind may keep state of its
-  /// own; while one is, a new one is refused: returns false and counts a drop. The next sample comes soon enough.
+  /// Queues a job. At most one job of a kind is in flight, waiting or running, so that a kind may
+  /// keep state of its own; while one is, a new one is refused: returns false and counts a drop.
+  /// The next sample comes soon enough.
   virtual bool post(Job job) = 0;
   /// Calls `tick(now)` each period, first at now + period. Lower priority numbers run first at
   /// equal times. To be called before start() of a ThreadExecutor or before the first run of a

@@ -9,48 +9,74 @@
 
 namespace kiln {
 
-/// What a client may do: a Viewer only looks (its STOP still counts), a Supervisor may pre-empt a lease.
+/// What a client may do: a Viewer only looks (its STOP still counts), a Supervisor may pre-empt a
+/// lease.
 enum class ClientRole : std::uint8_t { Viewer, Operator, Supervisor };
 
 enum class Mode : std::uint8_t { None, Autonomous, Supervised, Teleop, Stopped };
 
-// --- discrete commands: acknowledged, age limit 1 s (transitions 2 s) -------------------------------------------
-struct AcquireLease { bool take_over = false; };
+// --- discrete commands: acknowledged, age limit 1 s (transitions 2 s)
+// -------------------------------------------
+struct AcquireLease {
+  bool take_over = false;
+};
 struct ReleaseLease {};
-struct StartMission {};                                 ///< from READY; arms and runs
+struct StartMission {};  ///< from READY; arms and runs
 struct Pause {};
 struct Resume {};
-struct ChangeState { std::string from; std::uint64_t step = 0; std::string to; };
-struct SetMode { Mode mode = Mode::Autonomous; };       ///< Autonomous, Supervised or Teleop
+struct ChangeState {
+  std::string from;
+  std::uint64_t step = 0;
+  std::string to;
+};
+struct SetMode {
+  Mode mode = Mode::Autonomous;
+};  ///< Autonomous, Supervised or Teleop
 struct ClearStop {};
 struct ReleaseProtectiveStop {};
-struct ResetRobot {};                                   ///< competition reset: robot is carried back to its start
-struct SetSpeedScale { double scale = 0.35; };          ///< 0..1, teleop
+struct ResetRobot {};  ///< competition reset: robot is carried back to its start
+struct SetSpeedScale {
+  double scale = 0.35;
+};  ///< 0..1, teleop
 struct CancelMacro {};
-struct AcknowledgeAlarm { std::string id; };
+struct AcknowledgeAlarm {
+  std::string id;
+};
 
-// --- hold-to-run setpoints: streamed at 25 Hz, never acknowledged when fine, refused at 300 ms of age -----------
+// --- hold-to-run setpoints: streamed at 25 Hz, never acknowledged when fine, refused at 300 ms of
+// age -----------
 enum class JogFrame : std::uint8_t { Joint, Tool, Base };
-struct JogBase { Twist2 twist; };                       ///< base frame; clamped on the robot
-struct JogArm { JogFrame frame = JogFrame::Base; Vector6d velocity = Vector6d::Zero(); };  ///< rad/s, or m/s + rad/s
-struct HoldPump { double left = 0.0, right = 0.0; };    ///< duty 0..1
+struct JogBase {
+  Twist2 twist;
+};  ///< base frame; clamped on the robot
+struct JogArm {
+  JogFrame frame = JogFrame::Base;
+  Vector6d velocity = Vector6d::Zero();
+};  ///< rad/s, or m/s + rad/s
+struct HoldPump {
+  double left = 0.0, right = 0.0;
+};  ///< duty 0..1
 /// Runs while held; restart starts from the first step; an empty name is the release.
-struct HoldMacro { std::string name; bool restart = false; };
-struct ReleaseAll {};                                   ///< explicit zero: sent three times on release
+struct HoldMacro {
+  std::string name;
+  bool restart = false;
+};
+struct ReleaseAll {};  ///< explicit zero: sent three times on release
 
-using CommandBody = std::variant<AcquireLease, ReleaseLease, StartMission, Pause, Resume, ChangeState, SetMode, ClearStop,
-                                 ReleaseProtectiveStop, ResetRobot, SetSpeedScale, CancelMacro, AcknowledgeAlarm,
-                                 JogBase, JogArm, HoldPump, HoldMacro, ReleaseAll>;
+using CommandBody =
+    std::variant<AcquireLease, ReleaseLease, StartMission, Pause, Resume, ChangeState, SetMode,
+                 ClearStop, ReleaseProtectiveStop, ResetRobot, SetSpeedScale, CancelMacro,
+                 AcknowledgeAlarm, JogBase, JogArm, HoldPump, HoldMacro, ReleaseAll>;
 
 struct Command {
-  std::string client_id;               ///< random per process
-  std::string operator_name;           ///< shown to others
-  std::uint64_t nonce = 0;             ///< unique per client, for dedup and acks
-  std::uint64_t lease_epoch = 0;       ///< the lease the sender believes to hold; 0 = none
-  Stamp issued;                        ///< in ROBOT time, converted by the client's clock estimate
+  std::string client_id;          ///< random per process
+  std::string operator_name;      ///< shown to others
+  std::uint64_t nonce = 0;        ///< unique per client, for dedup and acks
+  std::uint64_t lease_epoch = 0;  ///< the lease the sender believes to hold; 0 = none
+  Stamp issued;                   ///< in ROBOT time, converted by the client's clock estimate
   CommandBody body;
 };
-[[nodiscard]] std::string_view commandName(const CommandBody& body);   ///< "jog_base", ...
+[[nodiscard]] std::string_view commandName(const CommandBody& body);  ///< "jog_base", ...
 [[nodiscard]] bool isSetpoint(const CommandBody& body);
 
 enum class AckOutcome : std::uint8_t { Accepted, Refused, Done, Failed, Cancelled };
@@ -59,10 +85,11 @@ struct CommandAck {
   std::uint64_t nonce = 0;
   std::string command;
   AckOutcome outcome = AckOutcome::Accepted;
-  std::string code;                    ///< machine-readable: "no_lease", "too_old", "wrong_mode", "replayed", "moved", ...
-  std::string reason;                  ///< one sentence: what, why, what to do
+  std::string
+      code;  ///< machine-readable: "no_lease", "too_old", "wrong_mode", "replayed", "moved", ...
+  std::string reason;  ///< one sentence: what, why, what to do
   std::string lease_holder;
-  std::uint64_t lease_epoch = 0;       ///< the lease just granted (acquire_lease), else 0
+  std::uint64_t lease_epoch = 0;  ///< the lease just granted (acquire_lease), else 0
 };
 
 }  // namespace kiln

@@ -1,9 +1,10 @@
 #pragma once
 
-#include <Eigen/Geometry>
 #include <cstdint>
 #include <string>
 #include <vector>
+
+#include <Eigen/Geometry>
 
 #include "common/model/fire.h"
 #include "common/model/status.h"
@@ -18,7 +19,8 @@ struct SceneBox {
   std::uint32_t rgb = 0x808080;  ///< 0xRRGGBB
 };
 
-/// Everything the scene overlays on the live robot; mirrors kiln.v1.Scene. Sent when it changes and every 2 s.
+/// Everything the scene overlays on the live robot; mirrors kiln.v1.Scene. Sent when it changes and
+/// every 2 s.
 struct Scene {
   Stamp stamp;
   std::vector<FireEstimate> fires;

@@ -61,11 +61,12 @@ struct RgbImage {
 };
 using RgbImagePtr = std::shared_ptr<const RgbImage>;
 
-/// A colour picture as it travels: JPEG bytes, encoded on the robot, decoded by the station's own thread.
+/// A colour picture as it travels: JPEG bytes, encoded on the robot, decoded by the station's own
+/// thread.
 struct JpegImage {
   Stamp stamp;
   std::uint64_t seq = 0;
-  std::string frame;                   ///< "rgb" or "operator_camera"
+  std::string frame;  ///< "rgb" or "operator_camera"
   int width = 0;
   int height = 0;
   std::vector<std::uint8_t> jpeg;

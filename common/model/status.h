@@ -46,9 +46,9 @@ struct LeaseStatus {
   std::string holder_name;
   std::uint64_t epoch = 0;
   double expires_in_s = 0.0;
-  std::string requested_by_client;     ///< somebody asks the holder to hand over; empty = nobody
+  std::string requested_by_client;  ///< somebody asks the holder to hand over; empty = nobody
   std::string requested_by_name;
-  double request_expires_in_s = 0.0;   ///< then the request is denied, unless the holder is dead
+  double request_expires_in_s = 0.0;  ///< then the request is denied, unless the holder is dead
 };
 struct StopStatus {
   bool latched = false;
@@ -146,7 +146,7 @@ struct LogLine {
 /// Log lines since the last batch; published at 2 Hz.
 struct LogBatch {
   std::vector<LogLine> lines;
-  std::uint64_t dropped = 0;           ///< lines lost on the robot since start
+  std::uint64_t dropped = 0;  ///< lines lost on the robot since start
 };
 
 /// First message of a robot to a station.

@@ -75,7 +75,8 @@ void FakeRobot::enter(const std::string& state, TransitionCause cause, const std
 }
 
 void FakeRobot::advanceTo(Stamp now) {
-  if (now_ == Stamp{}) entered_ = history_.back().entered = now;  // the robot's clock does not start at zero
+  if (now_ == Stamp{})
+    entered_ = history_.back().entered = now;  // the robot's clock does not start at zero
   const double dt_s = std::clamp(toSeconds(now - now_), 0.0, 1.0);
   now_ = now;
   const bool mission_moves = running_ && !paused_ && !stopped_ && mode_ != Mode::Teleop;

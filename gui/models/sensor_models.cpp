@@ -28,7 +28,8 @@ double ThermalModel::frozenS() const { return image_ ? toSeconds(stationNow() - 
 CameraModel::CameraModel(Link& link, std::string frame, QObject* parent)
     : Model(link, kVideoAge, parent), frame_(std::move(frame)) {
   connect(&link, &Link::image, this, [this](RgbImagePtr image) {
-    // A picture that could not be decoded comes without pixels: for the view to name, no fresh view.
+    // A picture that could not be decoded comes without pixels: for the view to name, no fresh
+    // view.
     if (image->frame != frame_ || image->data.empty()) return;
     image_ = std::move(image);
     arrived(image_->stamp);

@@ -7,22 +7,23 @@
 
 namespace kiln {
 
-/// Position target for the arm's servo loop (servoj on a UR). The device itself refuses a target that would need
-/// more than its joint limits and enters a protective stop.
+/// Position target for the arm's servo loop (servoj on a UR). The device itself refuses a target
+/// that would need more than its joint limits and enters a protective stop.
 struct ArmServo {
   Vector6d q = Vector6d::Zero();   ///< rad
   Vector6d qd = Vector6d::Zero();  ///< rad/s feed-forward
 };
 
-/// A six-joint arm with a position servo. Device fail-safe: without a servo target for 200 ms it decelerates and
-/// holds. Thread-safe.
+/// A six-joint arm with a position servo. Device fail-safe: without a servo target for 200 ms it
+/// decelerates and holds. Thread-safe.
 class Arm {
  public:
   virtual ~Arm() = default;
   [[nodiscard]] virtual std::optional<ArmState> state() const = 0;
   /// @pre all finite. Called at the servo rate (125 Hz; 500 Hz for a UR10e).
   virtual Result<void> servo(const ArmServo& target) = 0;
-  /// Only on the operator's explicit word: automatic release of protective stops is prohibited by the vendor.
+  /// Only on the operator's explicit word: automatic release of protective stops is prohibited by
+  /// the vendor.
   virtual Result<void> releaseProtectiveStop() = 0;
 };
 

@@ -9,13 +9,14 @@
 namespace kiln {
 
 struct WheelCommand {
-  double steer_rad = 0.0;      ///< +-pi
+  double steer_rad = 0.0;  ///< +-pi
   double drive_radps = 0.0;
 };
 /// Order as in BaseState.
 using WheelCommands = std::array<WheelCommand, 4>;
 
-/// Four steered hub wheels. Device fail-safe: wheels brake 250 ms after the last command. Thread-safe.
+/// Four steered hub wheels. Device fail-safe: wheels brake 250 ms after the last command.
+/// Thread-safe.
 class DriveBase {
  public:
   virtual ~DriveBase() = default;

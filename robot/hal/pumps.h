@@ -8,8 +8,8 @@
 
 namespace kiln {
 
-/// Two water pumps behind the Nano. Device fail-safe: 200 ms after the last heartbeat the firmware cuts both pumps.
-/// There is no flow or level sensor; the motor current is measured. Thread-safe.
+/// Two water pumps behind the Nano. Device fail-safe: 200 ms after the last heartbeat the firmware
+/// cuts both pumps. There is no flow or level sensor; the motor current is measured. Thread-safe.
 class Pumps {
  public:
   virtual ~Pumps() = default;

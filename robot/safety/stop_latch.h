@@ -8,9 +8,10 @@
 
 namespace kiln {
 
-/// The latched software stop: set by anyone at any time, from any thread, without a lease; cleared only by the
-/// command gate on the lease holder's word. Controllers read it at every tick: base and arm decelerate to rest,
-/// pumps are cut. Magnets would keep their state: a dropped brick is the greater hazard.
+/// The latched software stop: set by anyone at any time, from any thread, without a lease; cleared
+/// only by the command gate on the lease holder's word. Controllers read it at every tick: base and
+/// arm decelerate to rest, pumps are cut. Magnets would keep their state: a dropped brick is the
+/// greater hazard.
 class StopLatch {
  public:
   void set(const std::string& source, Stamp now) {

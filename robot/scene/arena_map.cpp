@@ -45,16 +45,19 @@ std::vector<BoxConfig> ArenaMap::fireFurniture() const {
   std::vector<BoxConfig> out;
   for (const FirePlaceConfig& place : fire_places) {
     const double yaw = place.facing_deg * kDeg;
-    // The opening lies recess_m in front of the plate; the box extends box_size_m behind the opening.
+    // The opening lies recess_m in front of the plate; the box extends box_size_m behind the
+    // opening.
     const double back = 0.5 * box_size_m - recess_m;
     const double x = place.plate_xyz_m[0] - back * std::cos(yaw);
     const double y = place.plate_xyz_m[1] - back * std::sin(yaw);
-    BoxConfig box{place.name + " box", {{x, y, table_height_m + 0.5 * box_size_m}, {0, 0, place.facing_deg}},
+    BoxConfig box{place.name + " box",
+                  {{x, y, table_height_m + 0.5 * box_size_m}, {0, 0, place.facing_deg}},
                   {box_size_m, box_size_m, box_size_m}};
-    const double table_back = 0.5 * table_size_m - recess_m - 0.05;  // box front 5 cm behind the table's edge
+    const double table_back =
+        0.5 * table_size_m - recess_m - 0.05;  // box front 5 cm behind the table's edge
     BoxConfig table{place.name + " table",
-                    {{place.plate_xyz_m[0] - table_back * std::cos(yaw), place.plate_xyz_m[1] - table_back * std::sin(yaw),
-                      0.5 * table_height_m},
+                    {{place.plate_xyz_m[0] - table_back * std::cos(yaw),
+                      place.plate_xyz_m[1] - table_back * std::sin(yaw), 0.5 * table_height_m},
                      {0, 0, place.facing_deg}},
                     {table_size_m, table_size_m, table_height_m}};
     out.push_back(box);

@@ -17,18 +17,21 @@ struct GroundPoseConfig {
   [[nodiscard]] Pose2 pose() const;
 };
 
-/// One of the two known fire places: where the plate is expected and from where the robot works on it.
+/// One of the two known fire places: where the plate is expected and from where the robot works on
+/// it.
 struct FirePlaceConfig {
   std::string name;
   std::vector<double> plate_xyz_m{0, 0, 1};  ///< plate centre in map
-  double facing_deg = 180.0;                 ///< yaw of the plate's outward normal, through the opening
-  GroundPoseConfig work_pose;                ///< base pose in front of it
-  std::vector<GroundPoseConfig> via;         ///< way-points on the way there from the hub inside the building
+  double facing_deg = 180.0;   ///< yaw of the plate's outward normal, through the opening
+  GroundPoseConfig work_pose;  ///< base pose in front of it
+  std::vector<GroundPoseConfig>
+      via;  ///< way-points on the way there from the hub inside the building
   void visit(ConfigArchive& a);
 };
 
-/// Nominal model of the arena in `map`, as the autonomy and the station know it (resources/config/arena_kitchen.yaml).
-/// The simulator builds its world from it with the per-seed errors of scenario.md section 3.
+/// Nominal model of the arena in `map`, as the autonomy and the station know it
+/// (resources/config/arena_kitchen.yaml). The simulator builds its world from it with the per-seed
+/// errors of scenario.md section 3.
 struct ArenaMap {
   std::string name = "kitchen";
   GroundPoseConfig start;                    ///< nominal start pose
@@ -39,9 +42,9 @@ struct ArenaMap {
   double geofence_x_min_m = -3, geofence_x_max_m = 16, geofence_y_min_m = -7, geofence_y_max_m = 7;
   // Fire box (acrylic), same at both places; sizes from the rules.
   double box_size_m = 0.4;
-  double opening_m = 0.15;                   ///< square opening, edge length
-  double plate_m = 0.15;                     ///< plate diameter
-  double recess_m = 0.10;                    ///< plate behind the opening
+  double opening_m = 0.15;  ///< square opening, edge length
+  double plate_m = 0.15;    ///< plate diameter
+  double recess_m = 0.10;   ///< plate behind the opening
   double table_size_m = 0.7, table_height_m = 0.8;
   void visit(ConfigArchive& a);
   /// Tables and boxes at their configured places, as boxes for planning and drawing.

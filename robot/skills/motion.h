@@ -9,8 +9,8 @@
 
 namespace kiln {
 
-/// The base as missions see it: drives along way-points in `map` and stops at the last one. Implemented by DriveTo.
-/// Confined to the mission thread.
+/// The base as missions see it: drives along way-points in `map` and stops at the last one.
+/// Implemented by DriveTo. Confined to the mission thread.
 class BaseMotion {
  public:
   virtual ~BaseMotion() = default;
@@ -19,14 +19,15 @@ class BaseMotion {
   virtual void cancel() = 0;  ///< base ramps to rest
 };
 
-/// The arm as missions see it: collision-checked, guarded motion to joint or Cartesian goals. Implemented by MoveArm.
-/// Confined to the mission thread.
+/// The arm as missions see it: collision-checked, guarded motion to joint or Cartesian goals.
+/// Implemented by MoveArm. Confined to the mission thread.
 class ArmMotion {
  public:
   virtual ~ArmMotion() = default;
   virtual void startJoints(const Vector6d& q_goal, Stamp now) = 0;
   virtual void startPose(const Eigen::Isometry3d& X_base_flange, Stamp now) = 0;
-  virtual void startCartesian(std::vector<Eigen::Isometry3d> X_base_flange, bool blend, Stamp now) = 0;
+  virtual void startCartesian(std::vector<Eigen::Isometry3d> X_base_flange, bool blend,
+                              Stamp now) = 0;
   [[nodiscard]] virtual SkillStatus poll(Stamp now) = 0;
   virtual void cancel() = 0;  ///< arm decelerates and holds
   /// Reachable and free of collision now? Error says why not.

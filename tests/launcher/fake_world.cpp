@@ -1,11 +1,12 @@
-// Stands in for kiln-sim in the launcher's test: opens the socket of `--listen ipc://PATH`, then waits for SIGTERM.
-#include <sys/socket.h>
-#include <sys/un.h>
-#include <unistd.h>
-
+// Stands in for kiln-sim in the launcher's test: opens the socket of `--listen ipc://PATH`, then
+// waits for SIGTERM.
 #include <cstdio>
 #include <cstring>
 #include <string>
+
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
 
 int main(int argc, char** argv) {
   std::string path;

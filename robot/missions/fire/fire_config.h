@@ -64,7 +64,7 @@ struct FireSprayConfig {
   double duty = 1.0;
   double min_current_a = 1.0;  ///< "Pump draws current"
   double start_timeout_s = 3.0;
-  double idle_fault_s = 1.0;     ///< pumps that stay off so long while spraying are a fault
+  double idle_fault_s = 1.0;        ///< pumps that stay off so long while spraying are a fault
   double off_current_a = 0.3;       ///< the pumps have stopped
   double min_start_l = 0.2;         ///< a tank with less is not started
   double delivered_share = 0.9;     ///< of the water: the place counts as extinguished

@@ -23,7 +23,7 @@ class HeatLocalizer {
     double hfov_deg = 57.0;
     int min_views = 5;
     double max_range_m = 3.0;
-    double psf_sigma_px = 0.58;      ///< blur of optics and pixel together
+    double psf_sigma_px = 0.58;     ///< blur of optics and pixel together
     double gate_px = 12.0;          ///< a view whose centre is off by more does not agree
     double gate_size_ratio = 0.35;  ///< nor one whose size is off by more than this share
     double centre_sigma_px = 0.5;   ///< one sigma, each picture

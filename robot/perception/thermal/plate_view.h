@@ -12,8 +12,8 @@ namespace kiln::thermal {
 /// centre, Z out through the opening, X horizontal, Y up.
 struct PlateModel {
   double diameter_m = 0.15;
-  double opening_m = 0.15;    ///< edge of the square opening, parallel to the plate
-  double recess_m = 0.10;     ///< plate behind the opening
+  double opening_m = 0.15;     ///< edge of the square opening, parallel to the plate
+  double recess_m = 0.10;      ///< plate behind the opening
   double psf_sigma_px = 0.58;  ///< optics and pixel together
 };
 

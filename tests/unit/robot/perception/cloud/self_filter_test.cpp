@@ -83,7 +83,8 @@ TEST(SelfFilter, PlacesTheArmWhereItWasAtEachPoint) {
   scan.push(50, 0, 0, 1, 1, 0.0f);  // far away, at the start
   const SelfFilter filter(geometry, {.margin_m = 0.03, .slices = 50});
   EXPECT_EQ(filter.filter(scan, arm).removed, 1u);
-  // With the arm believed to stand still the same measurement is taken for something beside the deck.
+  // With the arm believed to stand still the same measurement is taken for something beside the
+  // deck.
   ArmTrack still;
   still.push(at(0), q0);
   EXPECT_EQ(filter.filter(scan, still).removed, 0u);
