@@ -108,10 +108,16 @@ int run(int argc, char** argv, const StationOptions& options) {
     });
   }
   if (options.take_lease) {
-    QObject::connect(&models.status, &Model::changed, &models.lease,
-                     [&models, asked = false]() mutable {
-                       if (std::exchange(asked, true)) return;
-                       models.lease.request();
+    // Until the clocks are matched the link refuses commands on the spot: ask until it is granted
+    // once.
+    QObject::connect(&models, &StationModels::aged, &models.lease,
+                     [&models, granted = false]() mutable {
+                       granted = granted || models.lease.mine();
+                       const bool known = models.link.robotNow().has_value();
+                       if (!granted && known && models.lease.holder() == LeaseHolder::Free &&
+                           !models.lease.requesting()) {
+                         models.lease.request();
+                       }
                      });
   }
   std::unique_ptr<StopProbe> probe;

@@ -9,7 +9,6 @@ namespace {
 constexpr double kMargin_px = 2.0;
 constexpr double kLaneGap_px = 6.0;
 constexpr double kHeader_px = 21.0;
-constexpr double kMinColumn_px = 98.0;
 constexpr double kMinPitch_px = 44.0;
 constexpr double kMaxPitch_px = 92.0;
 constexpr double kGutterShare = 0.075;

@@ -14,6 +14,7 @@ namespace kiln::gui {
 class GraphGeometry {
  public:
   static constexpr double kNodeHeight_px = 36.0;
+  static constexpr double kMinColumn_px = 98.0;
   GraphGeometry() = default;
   GraphGeometry(const GraphLayout& layout, QSizeF size);
   [[nodiscard]] QSizeF size() const { return size_; }

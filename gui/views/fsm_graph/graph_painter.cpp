@@ -8,6 +8,9 @@ namespace kiln::gui {
 
 namespace {
 constexpr double kRadius_px = 4.0;
+/// A state with this many ways in or out (a fault that everything leads to) would cover the graph
+/// with lines: they show once taken, from the current state and under the pointer.
+constexpr int kHubEdges = 5;
 constexpr double kRecentShare[] = {1.0, 0.55, 0.25, 0.12};
 
 void arrowHead(QPainter& painter, const GraphGeometry::Edge& edge, const QColor& color,
@@ -88,11 +91,29 @@ GraphPainter::EdgeLook GraphPainter::lookOf(const FsmEdgeInfo& edge) const {
   return look;
 }
 
+bool GraphPainter::hidden(const FsmEdgeInfo& edge) const {
+  const QString from = QString::fromStdString(edge.from);
+  const QString to = QString::fromStdString(edge.to);
+  const FsmModel& fsm = in_.models.fsm;
+  if (fsm.timesTaken(from, to) > 0) return false;
+  for (const QString& end : {from, to}) {
+    if (end == fsm.current() || end == in_.hover) return false;
+  }
+  const auto& edges = fsm.info()->edges;
+  const auto into = std::count_if(edges.begin(), edges.end(),
+                                  [&](const FsmEdgeInfo& e) { return e.to == edge.to; });
+  const auto out = std::count_if(edges.begin(), edges.end(),
+                                 [&](const FsmEdgeInfo& e) { return e.from == edge.from; });
+  return std::max(into, out) >= kHubEdges;
+}
+
 void GraphPainter::edges() {
   const FsmInfo* info = in_.models.fsm.info();
   if (!info) return;
   std::vector<std::pair<EdgeLook, const FsmEdgeInfo*>> sorted;
-  for (const FsmEdgeInfo& e : info->edges) sorted.emplace_back(lookOf(e), &e);
+  for (const FsmEdgeInfo& e : info->edges) {
+    if (!hidden(e)) sorted.emplace_back(lookOf(e), &e);
+  }
   std::stable_sort(sorted.begin(), sorted.end(),
                    [](const auto& a, const auto& b) { return a.first.width < b.first.width; });
   for (const auto& [look, e] : sorted) {

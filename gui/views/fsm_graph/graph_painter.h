@@ -39,6 +39,7 @@ class GraphPainter {
   void lanes();
   void edges();
   void forcedEdges();
+  [[nodiscard]] bool hidden(const FsmEdgeInfo& edge) const;
   void edge(const QString& from, const QString& to, bool both, const EdgeLook& look);
   [[nodiscard]] EdgeLook lookOf(const FsmEdgeInfo& edge) const;
   void node(const GraphLayout::Node& node, const QRectF& box);

@@ -16,6 +16,8 @@ constexpr double kZoomStep = 1.15;
 constexpr double kMinZoom = 0.6;
 constexpr double kMaxZoom = 3.0;
 constexpr double kDragStart_px = 4.0;
+constexpr int kFewestRows = 6;
+constexpr int kMostRows = 12;
 }  // namespace
 
 GraphView::GraphView(const Ui& ui, StationModels& models, ForcedJump& jump, QWidget* parent)
@@ -33,9 +35,18 @@ GraphView::GraphView(const Ui& ui, StationModels& models, ForcedJump& jump, QWid
 }
 
 void GraphView::relayout() {
-  layout_ = models_.fsm.info() ? layoutGraph(*models_.fsm.info()) : GraphLayout{};
-  geometry_ = GraphGeometry(layout_, size());
+  arrange();
   fit();
+}
+
+void GraphView::arrange() {
+  // Rather longer lanes than columns that stick out at the side.
+  layout_ = {};
+  for (int rows = kFewestRows; models_.fsm.info() && rows <= kMostRows; ++rows) {
+    layout_ = layoutGraph(*models_.fsm.info(), rows);
+    if (layout_.columns * GraphGeometry::kMinColumn_px <= width()) break;
+  }
+  geometry_ = GraphGeometry(layout_, size());
 }
 
 void GraphView::fit() {
@@ -88,7 +99,7 @@ void GraphView::paintEvent(QPaintEvent*) {
 }
 
 void GraphView::resizeEvent(QResizeEvent*) {
-  geometry_ = GraphGeometry(layout_, size());
+  arrange();
   keepInside();
   showCurrent();
 }

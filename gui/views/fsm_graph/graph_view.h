@@ -40,6 +40,7 @@ class GraphView : public QWidget {
 
  private:
   void relayout();
+  void arrange();
   void keepInside();
   void showCurrent();
   [[nodiscard]] QString tipFor(const QString& name) const;

@@ -7,6 +7,7 @@ namespace kiln::gui {
 
 namespace {
 constexpr int kMaxExits = 4;
+constexpr int kExitsBesideRelease = 2;  // the release needs the room
 constexpr double kInputAmber_s = 0.5;
 constexpr double kInputRed_s = 2.0;
 constexpr double kInputShown_s = 0.005;
@@ -170,7 +171,10 @@ void StateCard::refreshExits() {
   }
   QString why;
   const bool may = models_.mayCommand(&why);
-  for (ActButton* button : exits_) {
+  const int shown = release_->isHidden() ? kMaxExits : kExitsBesideRelease;
+  for (std::size_t i = 0; i < exits_.size(); ++i) {
+    ActButton* button = exits_[i];
+    button->setVisible(static_cast<int>(i) < shown);
     button->setEnabled(may);
     button->setToolTip(may ? tr("%1\nThen hold to jump, below the graph.").arg(button->subtext())
                            : why);

@@ -60,7 +60,8 @@ void TickList::paintEvent(QPaintEvent*) {
     const Row& row = rows_[i];
     const int y = static_cast<int>(i) * kRow_px;
     paintMark(painter, QRectF(0, y, kMark_px - 4, kRow_px), row.mark);
-    const int detail = QFontMetrics(small).horizontalAdvance(row.detail);
+    const int detail =
+        QFontMetrics(small).horizontalAdvance(row.detail) + 4;  // rounding must not elide
     const int shown = std::min(detail, width() * 3 / 5);
     painter.setFont(small);
     painter.setPen(row.mark == Mark::Attention && row.level == AgeLevel::Fresh

@@ -29,7 +29,7 @@ QString LeaseChip::text() const {
     case LeaseHolder::Unknown:
       return tr("Lease unknown");
     case LeaseHolder::Free:
-      return tr("Nobody in control");
+      return tr("Control is free");
     case LeaseHolder::Mine:
       return lease_.askedBy().isEmpty() ? tr("You in control") : lease_.askedBy();
     case LeaseHolder::Other:

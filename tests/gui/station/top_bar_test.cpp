@@ -25,7 +25,7 @@ class TopBarTest : public testing::Test {
 };
 
 TEST_F(TopBarTest, TheLeaseChipTellsWhoIsInControl) {
-  EXPECT_EQ(bar.leaseChip()->text(), "Nobody in control");
+  EXPECT_EQ(bar.leaseChip()->text(), "Control is free");
   QTest::mouseClick(bar.leaseChip()->button(), Qt::LeftButton);
   station.settle();
   EXPECT_EQ(bar.leaseChip()->text(), "You in control");
