@@ -10,6 +10,8 @@ namespace kiln::gui {
 
 /// Measures the gaps of the event loop with a 10 ms heartbeat: how long the window would not have
 /// answered a key.
+/// The GUI thread's own processor time in each gap tells work in the station from a machine that
+/// had no core free.
 class StallMeter : public QObject {
   Q_OBJECT
  public:
@@ -28,6 +30,9 @@ class StallMeter : public QObject {
   QTimer timer_;
   Stamp last_;
   std::vector<int> histogram_;  ///< by millisecond, the last bin open
+  double cpu_s_ = 0.0;          ///< GUI thread's processor time at the last beat
+  double worst_busy_s_ = 0.0;
+  int busy_above_ = 0;
   double worst_s_ = 0.0;
   std::uint64_t beats_ = 0;
   int above_ = 0;
