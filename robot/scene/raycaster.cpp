@@ -119,7 +119,7 @@ Raycaster::Raycaster() : impl_(std::make_unique<Impl>()) {
   rtcSetDeviceErrorFunction(impl_->device, onEmbreeError, nullptr);
   impl_->scene = rtcNewScene(impl_->device);
   rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_DYNAMIC);
-  rtcSetSceneBuildQuality(impl_->scene, RTC_BUILD_QUALITY_LOW);
+  rtcSetSceneBuildQuality(impl_->scene, RTC_BUILD_QUALITY_MEDIUM);
   impl_->shapes = {impl_->makeScene(unitBox()), impl_->makeScene(unitCylinder()),
                    impl_->makeScene(unitSphere())};
 }

@@ -99,6 +99,25 @@ void LidarSensor::fireColumn(std::int64_t column, const Eigen::Isometry3d& X_map
   }
 }
 
+/// One laser in 16 neighbouring columns sees 3 deg of the scene, one column 30 deg: packets of the
+/// former are cast in two thirds of the time.
+void LidarSensor::castColumns(const RayScene& scene) {
+  const std::size_t columns = columns_.size();
+  order_.clear();
+  packed_rays_.clear();
+  for (std::size_t first = 0; first < columns; first += kLasers) {
+    for (std::size_t laser = 0; laser < kLasers; ++laser) {
+      for (std::size_t c = first; c < std::min(columns, first + kLasers); ++c)
+        order_.push_back(c * kLasers + laser);
+    }
+  }
+  for (const std::size_t i : order_) packed_rays_.push_back(rays_[i]);
+  packed_hits_.resize(order_.size());
+  scene.rays().cast(packed_rays_, packed_hits_, true);
+  hits_.resize(order_.size());
+  for (std::size_t k = 0; k < order_.size(); ++k) hits_[order_[k]] = packed_hits_[k];
+}
+
 /// Where the ranges of neighbouring columns jump, four more rays within the footprint say what the
 /// beam straddles; surfaces within mixing_depth_m blur into one range between them (a mixed pixel).
 void LidarSensor::mixEdges(const RayScene& scene) {
@@ -178,8 +197,7 @@ PointCloudPtr LidarSensor::advance(const SceneState& before, const SceneState& a
   PointCloudPtr done;
   const auto flush = [&] {
     if (columns_.empty()) return;
-    hits_.resize(rays_.size());
-    scene.rays().cast(rays_, hits_);
+    castColumns(scene);
     mixEdges(scene);
     emitPoints();
     rays_.clear();

@@ -32,6 +32,7 @@ class LidarSensor {
   };
   [[nodiscard]] Stamp columnTime(std::int64_t column) const;
   void fireColumn(std::int64_t column, const Eigen::Isometry3d& X_map_lidar);
+  void castColumns(const RayScene& scene);
   void mixEdges(const RayScene& scene);
   void emitPoints();
   [[nodiscard]] Eigen::Isometry3d X_map_lidar(const SceneState& state) const;
@@ -52,6 +53,9 @@ class LidarSensor {
   // One chunk; 16 rays a column.
   std::vector<Raycaster::Ray> rays_;
   std::vector<Raycaster::Hit> hits_;
+  std::vector<Raycaster::Ray> packed_rays_;  ///< rays_[order_[k]]
+  std::vector<Raycaster::Hit> packed_hits_;
+  std::vector<std::size_t> order_;
   std::vector<Eigen::Vector3f> directions_;  ///< in lidar
   std::vector<std::int64_t> columns_;
   std::vector<Eigen::Matrix3f> rotations_;  ///< by column

@@ -3,17 +3,6 @@
 #include <algorithm>
 
 namespace kiln::sim {
-namespace {
-
-SceneState between(const SceneState& a, const SceneState& b) {
-  SceneState mid = b;
-  mid.stamp = a.stamp + (b.stamp - a.stamp) / 2;
-  mid.X_map_base = interpolate(a.X_map_base, b.X_map_base, 0.5);
-  mid.q = 0.5 * (a.q + b.q);
-  return mid;
-}
-
-}  // namespace
 
 SensorSuite::SensorSuite(const WorldConfig& config, const TrueArena& arena,
                          const RobotGeometry& robot, std::uint64_t seed, bool render_colour)
@@ -21,7 +10,7 @@ SensorSuite::SensorSuite(const WorldConfig& config, const TrueArena& arena,
       arena_(arena),
       robot_(robot),
       scene_(config, arena, robot, false),
-      lidar_(config.lidar, robot, arena.robot, seed),
+      lidar_(config, arena, robot, seed),
       thermal_(config.thermal, robot, arena.robot, seed),
       render_colour_(render_colour) {}
 
@@ -41,17 +30,29 @@ void SensorSuite::runLidar(const SceneState& state, const FaultScript& faults) {
     return;
   }
   if (toSeconds(state.stamp - chunk_start_->stamp) < config_.lidar.chunk_s - 1e-9) return;
-  scene_.update(between(*chunk_start_, state));
-  PointCloudPtr scan = lidar_.advance(*chunk_start_, state, scene_);
+  // A chunk is handed over when the next one has been fired: 20 ms for the way from the sensor.
+  PointCloudPtr scan = lidar_.take();
+  lidar_.post(*chunk_start_, state);
   chunk_start_ = state;
   if (scan && !faults.active("lidar_dropout", state.stamp))
     frames_.lidar.push_back(std::move(scan));
 }
 
+const Raycaster& SensorSuite::rays(const SceneState& state) {
+  if (!scene_of_ || toSeconds(state.stamp - *scene_of_) >= config_.lidar.chunk_s)
+    updateScene(state);
+  return scene_.rays();
+}
+
+void SensorSuite::updateScene(const SceneState& state) {
+  scene_.update(state);
+  scene_of_ = state.stamp;
+}
+
 void SensorSuite::runThermal(const SceneState& state, const FaultScript& faults) {
   if (!next_thermal_) next_thermal_ = thermal_.nextFrame(state.stamp);
   if (state.stamp < *next_thermal_) return;
-  scene_.update(state);
+  updateScene(state);
   frames_.thermal.push_back(
       thermal_.capture(state, scene_, faults.active("thermal_freeze", state.stamp)));
   next_thermal_ = thermal_.nextFrame(state.stamp);

@@ -5,7 +5,7 @@
 
 #include "robot/sim/colour_camera.h"
 #include "robot/sim/fault_script.h"
-#include "robot/sim/lidar_sensor.h"
+#include "robot/sim/lidar_thread.h"
 #include "robot/sim/thermal_sensor.h"
 #include "robot/sim/world.h"
 
@@ -24,10 +24,12 @@ class SensorSuite {
                  const std::function<std::vector<Eigen::Vector3d>()>& drops);
   void takeFrames(WorldReport& report);
   [[nodiscard]] std::optional<SceneState> takeColourDue();
-  [[nodiscard]] const Raycaster& rays() const { return scene_.rays(); }
+  /// The scene for the water, not older than one LiDAR chunk.
+  [[nodiscard]] const Raycaster& rays(const SceneState& state);
   [[nodiscard]] const ThermalSensor& thermal() const { return thermal_; }
 
  private:
+  void updateScene(const SceneState& state);
   void runLidar(const SceneState& state, const FaultScript& faults);
   void runThermal(const SceneState& state, const FaultScript& faults);
   void runColour(const SceneState& state, const FaultScript& faults,
@@ -36,8 +38,9 @@ class SensorSuite {
   WorldConfig config_;
   TrueArena arena_;
   RobotGeometry robot_;
-  RayScene scene_;
-  LidarSensor lidar_;
+  RayScene scene_;  ///< of the thermal camera and the water
+  std::optional<Stamp> scene_of_;
+  LidarThread lidar_;
   ThermalSensor thermal_;
   std::unique_ptr<ColourCamera> colour_;  ///< made at the first picture
   bool render_colour_;

@@ -7,6 +7,7 @@ namespace kiln::sim {
 namespace {
 
 constexpr int kWidth = 160, kHeight = 120;
+constexpr int kTile = 4;            // pixels: a square of 16 rays makes a tighter packet than a row
 constexpr double kRounding = 1e-6;  // of a frame: stamps are whole nanoseconds
 constexpr float kSkyC = 10.0F;      // clear sky seen over the walls
 constexpr double kZeroCelsius = 273.15;
@@ -23,15 +24,21 @@ ThermalSensor::ThermalSensor(const ThermalConfig& config, const RobotGeometry& r
       camera_(CameraModel::fromHorizontalFov(kWidth, kHeight, config.hfov_deg * M_PI / 180.0)),
       noise_(seed, "thermal") {
   Random random(seed, "thermal fixed");
-  for (int i = 0; i < kWidth * kHeight; ++i) {
+  for (int i = 0; i < kWidth * kHeight; ++i)
     fixed_pattern_k_.push_back(static_cast<float>(random.normal(config.fixed_pattern_k)));
-    pixel_rays_.push_back(camera_.ray({i % kWidth, i / kWidth}).cast<float>());
+  for (int i = 0; i < kWidth * kHeight; ++i) {
+    const int tile = i / (kTile * kTile), inside = i % (kTile * kTile);
+    const int u = tile % (kWidth / kTile) * kTile + inside % kTile;
+    const int v = tile / (kWidth / kTile) * kTile + inside / kTile;
+    pixels_.push_back(static_cast<std::size_t>(v * kWidth + u));
+    pixel_rays_.push_back(camera_.ray({u, v}).cast<float>());
   }
   shutter_period_s_ = config.shutter_period_s *
                       (1.0 + random.uniform(-config.shutter_spread, config.shutter_spread));
   shutter_first_s_ = shutter_period_s_ * random.uniform(0.2, 1.0);
   rays_.resize(pixel_rays_.size());
   hits_.resize(pixel_rays_.size());
+  tiled_celsius_.resize(pixel_rays_.size());
   celsius_.resize(pixel_rays_.size());
 }
 
@@ -97,8 +104,10 @@ void ThermalSensor::castPixels(const SceneState& state, const RayScene& scene) {
   for (std::size_t i = 0; i < rays_.size(); ++i)
     rays_[i] = {origin, R * pixel_rays_[i], 1e4F, mask::kThermal};
   scene.rays().cast(rays_, hits_, true);
-  for (std::size_t i = 0; i < rays_.size(); ++i) celsius_[i] = surface(rays_[i], hits_[i], scene);
-  mirrorOnAcrylic(rays_, hits_, scene, celsius_);
+  for (std::size_t i = 0; i < rays_.size(); ++i)
+    tiled_celsius_[i] = surface(rays_[i], hits_[i], scene);
+  mirrorOnAcrylic(rays_, hits_, scene, tiled_celsius_);
+  for (std::size_t i = 0; i < rays_.size(); ++i) celsius_[pixels_[i]] = tiled_celsius_[i];
   refineEdges(X, scene);
 }
 

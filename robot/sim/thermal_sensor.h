@@ -40,7 +40,10 @@ class ThermalSensor {
   CameraModel camera_;
   Random noise_;
   std::vector<float> fixed_pattern_k_, celsius_, row_;
+  // In the order of the rays: square tiles of pixels.
+  std::vector<std::size_t> pixels_;  ///< index in the picture
   std::vector<Eigen::Vector3f> pixel_rays_;
+  std::vector<float> tiled_celsius_;
   std::vector<Raycaster::Ray> rays_;
   std::vector<Raycaster::Hit> hits_;
   double shutter_period_s_ = 180.0, shutter_first_s_ = 90.0;

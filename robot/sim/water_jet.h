@@ -25,6 +25,7 @@ class WaterJet {
   [[nodiscard]] const std::vector<double>& deliveredLitres() const { return delivered_l_; }
   [[nodiscard]] double emittedLitres() const { return emitted_l_; }
   [[nodiscard]] const JetProfile& profile() const { return profile_; }
+  [[nodiscard]] bool flying() const { return !drops_.empty(); }
   /// Positions in map, newest last.
   [[nodiscard]] std::vector<Eigen::Vector3d> drops() const;
 

@@ -126,7 +126,7 @@ void World::Impl::stepWater() {
     jet.emit(litres, pumps.flowFraction(), X_map_nozzle,
              physics->flangePointVelocity(X_map_nozzle.translation()));
   }
-  jet.step(dt, sensors.rays());
+  if (jet.flying()) jet.step(dt, sensors.rays(scene()));
 }
 
 void World::Impl::stepOnce() {
