@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "common/core/stamp.h"
@@ -40,7 +41,8 @@ class ArmDevice {
   Random noise_;
   Vector6d q_ref_ = Vector6d::Zero(), qd_ref_ = Vector6d::Zero();
   Vector6d target_q_ = Vector6d::Zero(), target_qd_ = Vector6d::Zero();
-  Stamp target_time_, carried_;
+  Stamp target_time_;
+  std::optional<Stamp> carried_;
   bool following_ = false;
   bool stopped_ = false;
   Vector6d wrench_ = Vector6d::Zero();  ///< filtered, true, in arm_base orientation at the tool
