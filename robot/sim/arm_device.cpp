@@ -35,6 +35,7 @@ std::string ArmDevice::refusal(Stamp now, const Vector6d& q, const Vector6d& qd)
 std::string ArmDevice::servo(Stamp now, const Vector6d& q, const Vector6d& qd) {
   if (stopped_) return "servo target ignored: protective stop";
   if (std::string why = refusal(now, q, qd); !why.empty()) {
+    if (carried_ && toSeconds(now - *carried_) <= config_.carry_grace_s) return {};
     protectiveStop();
     return why;
   }
@@ -52,7 +53,8 @@ void ArmDevice::protectiveStop() {
   following_ = false;
 }
 
-void ArmDevice::reset(const Vector6d& q) {
+void ArmDevice::reset(Stamp now, const Vector6d& q) {
+  if (now > Stamp{}) carried_ = now;  // the first time nothing can be under way
   q_ref_ = q;
   qd_ref_.setZero();
   wrench_.setZero();

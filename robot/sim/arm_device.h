@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "common/core/stamp.h"
@@ -20,8 +21,10 @@ class ArmDevice {
   std::string servo(Stamp now, const Vector6d& q, const Vector6d& qd);
   void releaseProtectiveStop();
   void protectiveStop();
-  /// The robot was carried to its start: hold there, no stop latched.
-  void reset(const Vector6d& q);
+  /// The robot was carried to its start: hold there, no stop latched. Targets that were under way
+  /// then belong to another posture; for ArmDeviceConfig::carry_grace_s those that do not fit are
+  /// dropped and not taken for a jump.
+  void reset(Stamp now, const Vector6d& q);
   /// Before each physics step: torques for this instant.
   void control(Stamp now, double step_s, Physics& physics);
   /// After each physics step: external forces on the arm.
@@ -39,6 +42,7 @@ class ArmDevice {
   Vector6d q_ref_ = Vector6d::Zero(), qd_ref_ = Vector6d::Zero();
   Vector6d target_q_ = Vector6d::Zero(), target_qd_ = Vector6d::Zero();
   Stamp target_time_;
+  std::optional<Stamp> carried_;
   bool following_ = false;
   bool stopped_ = false;
   Vector6d wrench_ = Vector6d::Zero();  ///< filtered, true, in arm_base orientation at the tool

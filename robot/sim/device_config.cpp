@@ -43,6 +43,8 @@ void ArmDeviceConfig::visit(ConfigArchive& a) {
   a.field("speed_tolerance", speed_tolerance, "", 1, 10,
           "refuse targets that need more than this times the limit");
   a.field("position_slack_rad", position_slack_rad, "rad", 0, 1, "jump that is always allowed");
+  a.field("carry_grace_s", carry_grace_s, "s", 0, 1,
+          "targets under way when people carry the robot are dropped");
 }
 
 void WaterConfig::visit(ConfigArchive& a) {

@@ -85,7 +85,7 @@ void World::Impl::carryToStart() {
   starts.push_back(drawStart(config.perturbation, arena.nominal_start, seed, resets));
   const Vector6d q = RobotGeometry::radians(robot.q_park_deg);
   physics->carryTo(starts.back(), q);
-  arm.reset(q);
+  arm.reset(now, q);
   base.reset();
 }
 

@@ -53,6 +53,7 @@ struct ArmDeviceConfig {
   double speed_tolerance =
       1.2;  ///< a target that needs more than this times the speed limit is refused
   double position_slack_rad = 0.02;  ///< jump that is always allowed
+  double carry_grace_s = 0.05;       ///< targets under way when people carry the robot are dropped
   void visit(ConfigArchive& a);
 };
 

@@ -23,9 +23,9 @@ Eigen::Vector3d sizeOf(const BoxConfig& box) {
 
 }  // namespace
 
-struct ArmCollision::Query {
-  std::array<Capsule, 6> links;
-  std::vector<OrientedBox> head;
+const char* ArmShapes::nameOf(std::size_t link) { return kLink[link]; }
+
+struct ArmCollision::Query : ArmShapes {
   double interest_m = 0.2;
   double nearest = INFINITY;
   const char* first = "";
@@ -116,21 +116,27 @@ void ArmCollision::testGround(Query& query) const {
   }
 }
 
-ArmCollision::Query ArmCollision::evaluate(const Vector6d& q, double interest_m) const {
-  Query query;
-  query.interest_m = interest_m;
+ArmShapes ArmCollision::shapesAt(const Vector6d& q) const {
+  ArmShapes out;
   const auto frames = robot_.arm.frames(q);
   Eigen::Vector3d from = X_base_armbase_.translation();
   for (std::size_t i = 0; i < 6; ++i) {
     const Eigen::Vector3d to = X_base_armbase_ * frames[i].translation();
-    query.links[i] = {from, to, radius_[i]};
+    out.links[i] = {from, to, radius_[i]};
     from = to;
   }
   const Eigen::Isometry3d X_base_flange = X_base_armbase_ * frames[5];
   for (const OrientedBox& part : head_in_flange_) {
-    query.head.push_back(part);
-    query.head.back().X_frame_box = X_base_flange * part.X_frame_box;
+    out.head.push_back(part);
+    out.head.back().X_frame_box = X_base_flange * part.X_frame_box;
   }
+  return out;
+}
+
+ArmCollision::Query ArmCollision::evaluate(const Vector6d& q, double interest_m) const {
+  Query query;
+  static_cast<ArmShapes&>(query) = shapesAt(q);
+  query.interest_m = interest_m;
   testBody(query);
   testSelf(query);
   testGround(query);

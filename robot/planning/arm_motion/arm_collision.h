@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,14 @@ namespace kiln {
 struct Clearance {
   double distance_m = 0.0;  ///< signed; a lower bound of the true distance
   std::string what;         ///< "forearm to tank left"
+};
+
+/// Arm and head at one posture, in base.
+struct ArmShapes {
+  std::array<Capsule, 6> links;
+  std::vector<OrientedBox> head;
+  /// "forearm"; of link 0..5.
+  [[nodiscard]] static const char* nameOf(std::size_t link);
 };
 
 /// The arm as six capsules along its DH skeleton and the head as boxes, against the robot's own
@@ -28,6 +37,7 @@ class ArmCollision {
   [[nodiscard]] Clearance clearance(const Vector6d& q, double interest_m = 0.2) const;
   /// Same, without naming.
   [[nodiscard]] double distance(const Vector6d& q, double interest_m = 0.2) const;
+  [[nodiscard]] ArmShapes shapesAt(const Vector6d& q) const;
   /// How far any point of arm or head can move when the joints move by dq: metres, upper bound.
   [[nodiscard]] double motionBound(const Vector6d& dq) const;
   /// Does the straight joint move keep `clearance_m` all the way? Conservative advancement: no step

@@ -125,6 +125,17 @@ BasePath::Point BasePath::at(double t_s) const {
   return point;
 }
 
+Pose2 BasePath::poseAt(double s) const {
+  const auto after = std::upper_bound(s_.begin(), s_.end(), s);
+  if (after == s_.begin()) return poses_.front();
+  if (after == s_.end()) return poses_.back();
+  const auto k = static_cast<std::size_t>(after - s_.begin());
+  const double u = (s - s_[k - 1]) / (s_[k] - s_[k - 1]);
+  const Pose2 &a = poses_[k - 1], &b = poses_[k];
+  return {a.x_m + u * (b.x_m - a.x_m), a.y_m + u * (b.y_m - a.y_m),
+          wrapAngle(a.yaw_rad + u * (b.yaw_rad - a.yaw_rad))};
+}
+
 int BasePath::nextWaypoint(double s) const {
   int next = 0;
   while (next + 1 < static_cast<int>(waypoint_sample_.size()) &&

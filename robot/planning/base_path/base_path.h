@@ -39,6 +39,8 @@ class BasePath {
   [[nodiscard]] double duration() const { return timing_.duration(); }
   [[nodiscard]] double length() const { return s_.back(); }
   [[nodiscard]] Point at(double t_s) const;
+  /// Pose at path coordinate s, clamped to the path.
+  [[nodiscard]] Pose2 poseAt(double s) const;
   /// Index of the way-point that lies ahead at path coordinate s.
   [[nodiscard]] int nextWaypoint(double s) const;
   [[nodiscard]] const std::vector<Pose2>& samples() const { return poses_; }

@@ -226,6 +226,35 @@ TEST_F(WorldTest, ResetCarriesTheRobotHomeAndLeavesTheClockRunning) {
   EXPECT_TRUE(world->truth().collisions.empty());
 }
 
+TEST_F(WorldTest, ServoTargetsUnderWayAtAResetAreDroppedAndLaterJumpsStillStop) {
+  const auto world = make();
+  Vector6d q = RobotGeometry::radians(world->robot().q_park_deg), qd = Vector6d::Zero();
+  WorldCommands c;
+  for (int i = 0; i < 250; ++i) {  // somewhere far from the park posture
+    qd[0] = -0.5 * std::min(1.0, i / 60.0);
+    q += kPeriod * qd;
+    c.arm = ArmServo{q, qd};
+    world->command(c);
+    (void)world->advance(world->now() + fromSeconds(kPeriod));
+  }
+  WorldCommands reset;
+  reset.request_reset = true;
+  world->command(reset);
+  WorldReport report;
+  for (int i = 0; i < 5; ++i) {  // 40 ms: the robot has not heard of it yet
+    world->command(c);
+    report = world->advance(world->now() + fromSeconds(kPeriod));
+  }
+  EXPECT_EQ(report.arm.safety, ArmSafetyMode::Normal);
+  EXPECT_EQ(report.refused, "");
+  const Vector6d park = RobotGeometry::radians(world->robot().q_park_deg);
+  EXPECT_LT((report.arm.q - park).cwiseAbs().maxCoeff(), 1e-3);
+  (void)world->advance(world->now() + fromSeconds(0.1));
+  world->command(c);
+  EXPECT_EQ(world->advance(world->now() + fromSeconds(0.1)).arm.safety,
+            ArmSafetyMode::ProtectiveStop);
+}
+
 /// Ten seconds with everything on, as bytes.
 std::string record(std::uint64_t seed) {
   auto world = World::create(

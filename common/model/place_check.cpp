@@ -1,0 +1,23 @@
+#include "common/model/place_check.h"
+
+namespace kiln {
+
+std::string_view toString(PlaceVerdict verdict) {
+  switch (verdict) {
+    case PlaceVerdict::Fits:
+      return "fits";
+    case PlaceVerdict::Misplaced:
+      return "misplaced";
+    case PlaceVerdict::Unseen:
+      return "unseen";
+  }
+  return "?";
+}
+
+Pose2 PlaceCheck::correction() const {
+  if (!X_map_sensed) return {};
+  const Pose2 from = projectToGround(X_map_configured), to = projectToGround(*X_map_sensed);
+  return {to.x_m - from.x_m, to.y_m - from.y_m, wrapAngle(to.yaw_rad - from.yaw_rad)};
+}
+
+}  // namespace kiln

@@ -1,0 +1,126 @@
+#include "robot/perception/cloud/obstacle_memory.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace kiln {
+namespace {
+
+constexpr double kDeg = M_PI / 180.0;
+constexpr std::size_t kRings = 16, kAzimuths = 720;
+constexpr double kRingStep = 2.0, kLowestRing = -15.0;  // deg (VLP-16 manual)
+constexpr std::int64_t kHalfExtent = 1 << 20;
+
+std::size_t azimuthBin(const Eigen::Vector3f& p_lidar) {
+  const double share = (std::atan2(p_lidar.y(), p_lidar.x()) + M_PI) / (2.0 * M_PI);
+  return std::min(static_cast<std::size_t>(share * kAzimuths), kAzimuths - 1);
+}
+
+}  // namespace
+
+void ObstacleMemory::Config::visit(ConfigArchive& a) {
+  a.field("voxel_m", voxel_m, "m", 0.02, 0.5, "edge of a cube");
+  a.field("max_range_m", max_range_m, "m", 1, 30, "from the base");
+  a.field("min_height_m", min_height_m, "m", 0.02, 1, "lower is driven over or noise");
+  a.field("max_height_m", max_height_m, "m", 0.5, 5, "higher passes over the robot");
+  a.field("keep_s", keep_s, "s", 0.5, 600, "not seen for so long: forgotten");
+  a.field("min_scans", min_scans, "", 1, 10, "needed to believe");
+  a.field("max_misses", max_misses, "", 1, 50, "beams that pass through until it is forgotten");
+  a.field("see_through_m", see_through_m, "m", 0.05, 2, "a beam must end so far behind");
+  a.field("max_voxels", max_voxels, "", 100, 1000000, "then everything is forgotten");
+  a.section("ground", ground, "what is ground");
+}
+
+ObstacleScan ObstacleMemory::observe(const Config& config, const PointCloud& scan_base,
+                                     const Eigen::Isometry3d& X_base_lidar) {
+  ObstacleScan out;
+  out.stamp = scan_base.stamp;
+  out.X_base_lidar = X_base_lidar;
+  out.range_m.assign(kRings * kAzimuths, 0.0f);
+  const GroundProfile ground(config.ground, scan_base);
+  const Eigen::Isometry3f X_lidar_base = X_base_lidar.inverse().cast<float>();
+  for (std::size_t i = 0; i < scan_base.size(); ++i) {
+    const Eigen::Vector3f p(scan_base.x[i], scan_base.y[i], scan_base.z[i]);
+    if (!p.allFinite()) continue;
+    const Eigen::Vector3f p_lidar = X_lidar_base * p;
+    float& longest = out.range_m[std::min<std::size_t>(scan_base.ring[i], kRings - 1) * kAzimuths +
+                                 azimuthBin(p_lidar)];
+    longest = std::max(longest, p_lidar.norm());
+    if (p.head<2>().squaredNorm() > config.max_range_m * config.max_range_m) continue;
+    const auto height = static_cast<float>(ground.heightOf(p.x(), p.y(), p.z()));
+    if (height < config.min_height_m || height > config.max_height_m) continue;
+    out.points.push_back({p, height});
+  }
+  return out;
+}
+
+std::uint64_t ObstacleMemory::keyOf(const Eigen::Vector3f& p) const {
+  const auto cell = [this](float v) {
+    return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(v / config_.voxel_m)) +
+                                      kHalfExtent);
+  };
+  return cell(p.x()) << 42 | cell(p.y()) << 21 | cell(p.z());
+}
+
+void ObstacleMemory::insert(const ObstacleScan& scan, const Pose2& X_odom_base) {
+  const Eigen::Isometry3f X = toIsometry(X_odom_base).cast<float>();
+  for (const ObstacleScan::Point& point : scan.points) {
+    const Eigen::Vector3f p = X * point.p_base;
+    Voxel& voxel = voxels_[keyOf(p)];
+    if (voxel.scans == 0 || voxel.seen != scan.stamp) ++voxel.scans;
+    voxel.p_odom = p;
+    voxel.height_m = point.height_m;
+    voxel.seen = scan.stamp;
+    voxel.misses = 0;
+  }
+}
+
+void ObstacleMemory::forget(const ObstacleScan& scan, const Pose2& X_odom_base) {
+  const Eigen::Isometry3f X_lidar_odom =
+      (toIsometry(X_odom_base) * scan.X_base_lidar).inverse().cast<float>();
+  const Eigen::Isometry3f X_base_odom = toIsometry(inverse(X_odom_base)).cast<float>();
+  const auto gone = [&](Voxel& voxel) {
+    if (voxel.seen == scan.stamp) return false;
+    if (scan.stamp - voxel.seen > fromSeconds(config_.keep_s)) return true;
+    if ((X_base_odom * voxel.p_odom).head<2>().norm() > 1.5 * config_.max_range_m) return true;
+    const Eigen::Vector3f p = X_lidar_odom * voxel.p_odom;
+    const double elevation = std::asin(std::clamp(p.z() / p.norm(), -1.0f, 1.0f)) / kDeg;
+    const double ring = (elevation - kLowestRing) / kRingStep;
+    const double nearest = std::round(ring);
+    // Only a beam that goes through the cube itself says something.
+    const double half_cube = 0.5 * config_.voxel_m / std::max(0.1f, p.norm()) / kDeg / kRingStep;
+    if (nearest < 0 || nearest >= static_cast<double>(kRings) ||
+        std::abs(ring - nearest) > half_cube)
+      return false;
+    const float through =
+        scan.range_m[static_cast<std::size_t>(nearest) * kAzimuths + azimuthBin(p)];
+    if (through < p.norm() + config_.see_through_m) return false;
+    return ++voxel.misses >= config_.max_misses;
+  };
+  for (auto it = voxels_.begin(); it != voxels_.end();)
+    it = gone(it->second) ? voxels_.erase(it) : std::next(it);
+  if (voxels_.size() > static_cast<std::size_t>(config_.max_voxels)) voxels_.clear();
+}
+
+void ObstacleMemory::publish(Stamp stamp) {
+  auto out = std::make_shared<ObstacleCloud>();
+  out->stamp = stamp;
+  for (const auto& [key, voxel] : voxels_)
+    if (voxel.scans >= config_.min_scans) out->points.push_back({voxel.p_odom, voxel.height_m});
+  snapshot_ = std::move(out);
+}
+
+void ObstacleMemory::add(const ObstacleScan& scan, const Pose2& X_odom_base) {
+  if (!std::isfinite(X_odom_base.x_m + X_odom_base.y_m + X_odom_base.yaw_rad)) return;
+  insert(scan, X_odom_base);
+  forget(scan, X_odom_base);
+  publish(scan.stamp);
+}
+
+void ObstacleMemory::clear() {
+  voxels_.clear();
+  snapshot_.reset();
+}
+
+}  // namespace kiln
