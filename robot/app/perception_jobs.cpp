@@ -7,6 +7,7 @@
 namespace kiln {
 namespace {
 
+constexpr double kHalfScan_s = 0.05;
 constexpr int kTrackSamples = 11;  // every 10 ms of a revolution at 10 Hz
 
 /// Joint angles over the scan, and the LiDAR's pose in the base frame of the scan's first point.
@@ -39,21 +40,21 @@ ScanMotion motionDuring(const PointCloud& scan, const RobotGeometry& robot,
 void PerceptionJobs::Config::visit(ConfigArchive& a) {
   a.field("scan_latency_s", scan_latency_s, "s", 0, 1, "modelled latency of one scan in lockstep");
   a.field("moving_fix_period_s", moving_fix_period_s, "s", 0.05, 10,
-          "align at most so often while moving");
+          "locate at most so often while moving");
   a.field("resting_fix_period_s", resting_fix_period_s, "s", 0.05, 60,
-          "align at most so often at rest");
+          "locate at most so often at rest");
 }
 
 PerceptionJobs::PerceptionJobs(Config config, Executor& executor, const RobotGeometry& robot,
                                const StateHistory& history, const SelfFilter& self_filter,
-                               const BoxMapAligner& aligner, HeatDetector& detector,
+                               const ScanLocator& locator, HeatDetector& detector,
                                double heat_latency_s)
     : config_(config),
       executor_(executor),
       robot_(robot),
       history_(history),
       self_filter_(self_filter),
-      aligner_(aligner),
+      locator_(locator),
       detector_(detector),
       heat_latency_(fromSeconds(heat_latency_s)) {}
 
@@ -61,34 +62,31 @@ void PerceptionJobs::onScan(PointCloudPtr scan) { scans_.put(std::move(scan)); }
 
 void PerceptionJobs::onThermal(ThermalImagePtr image) { images_.push(std::move(image)); }
 
-void PerceptionJobs::dispatch(Stamp now, const PoseTracker& tracker, bool moving) {
-  dispatchScan(now, tracker, moving);
+void PerceptionJobs::dispatch(Stamp now, Localizer& localizer, bool moving) {
+  dispatchScan(now, localizer, moving);
   dispatchThermal();
 }
 
-void PerceptionJobs::dispatchScan(Stamp now, const PoseTracker& tracker, bool moving) {
+void PerceptionJobs::dispatchScan(Stamp now, Localizer& localizer, bool moving) {
   const auto scan = scans_.takeFresh();
   if (!scan) return;
   last_scan_ = now;
-  const auto prior = tracker.priorAt((*scan)->stamp);
   const double period_s = moving ? config_.moving_fix_period_s : config_.resting_fix_period_s;
-  const bool due =
-      !last_fix_try_ || now - *last_fix_try_ >= fromSeconds(period_s) || (prior && prior->search);
-  const bool align = prior.has_value() && due;
-  if (align) last_fix_try_ = now;
+  // Scans come at nearly the period: half a scan of slack keeps every one of them.
+  const bool due = !last_fix_try_ || now - *last_fix_try_ >= fromSeconds(period_s - kHalfScan_s);
+  const auto prior = due ? localizer.priorAt((*scan)->stamp) : std::nullopt;
+  if (prior) last_fix_try_ = now;
   executor_.post({"scan", fromSeconds(config_.scan_latency_s),
-                  [this, scan = *scan, prior = prior.value_or(AlignmentPrior{}),
-                   align](std::stop_token) -> Delivery {
-                    auto result = std::make_shared<ScanResult>(processScan(*scan, prior, align));
+                  [this, scan = *scan, prior](std::stop_token) -> Delivery {
+                    auto result = std::make_shared<ScanResult>(processScan(*scan, prior));
                     return [this, result] { scan_results_.push(std::move(*result)); };
                   }});
 }
 
-PerceptionJobs::ScanResult PerceptionJobs::processScan(const PointCloud& scan,
-                                                       const AlignmentPrior& prior,
-                                                       bool align) const {
+PerceptionJobs::ScanResult PerceptionJobs::processScan(
+    const PointCloud& scan, const std::optional<AlignmentPrior>& prior) const {
   ScanResult result;
-  result.prior = prior;
+  result.prior = prior.value_or(AlignmentPrior{});
   const ScanMotion motion = motionDuring(scan, robot_, history_);
   auto filtered = self_filter_.filter(scan, motion.arm);
   if (motion.X_base_lidar.empty()) {  // no robot attached: show the scan as it came
@@ -97,10 +95,9 @@ PerceptionJobs::ScanResult PerceptionJobs::processScan(const PointCloud& scan,
   }
   result.cloud =
       std::make_shared<PointCloud>(undistort(filtered.cloud, motion.X_base_lidar, "base"));
-  if (align) {
+  if (prior) {
     const Eigen::Vector3d p_base_lidar = motion.X_base_lidar.at(scan.stamp).translation();
-    result.fix = prior.search ? aligner_.search(*result.cloud, p_base_lidar, prior.X_map_base)
-                              : aligner_.align(*result.cloud, p_base_lidar, prior.X_map_base);
+    result.match = locator_.locate(*result.cloud, p_base_lidar, *prior);
   }
   return result;
 }

@@ -10,8 +10,8 @@
 #include "common/model/fire.h"
 #include "common/model/sensor.h"
 #include "robot/app/state_history.h"
-#include "robot/localization/box_map_aligner.h"
-#include "robot/localization/pose_tracker.h"
+#include "robot/localization/localizer.h"
+#include "robot/localization/scan_locator.h"
 #include "robot/perception/cloud/pose_track.h"
 #include "robot/perception/cloud/self_filter.h"
 #include "robot/perception/thermal/heat_detector.h"
@@ -25,14 +25,14 @@ class PerceptionJobs {
  public:
   struct Config {
     double scan_latency_s = 0.012;      ///< modelled in lockstep; median of its benchmark
-    double moving_fix_period_s = 0.2;   ///< align at most so often while the base moves
-    double resting_fix_period_s = 1.0;  ///< and at rest
+    double moving_fix_period_s = 0.1;   ///< locate at most so often while the base moves
+    double resting_fix_period_s = 0.5;  ///< and at rest
     void visit(ConfigArchive& a);
   };
   struct ScanResult {
     PointCloudPtr cloud;  ///< motion-compensated, without the robot itself; frame base (or lidar)
     AlignmentPrior prior;
-    std::optional<Result<Alignment>> fix;  ///< nullopt: not tried this time
+    std::optional<Result<ScanMatch>> match;  ///< nullopt: not tried this time
   };
   struct HeatResult {
     ThermalImagePtr image;
@@ -40,13 +40,13 @@ class PerceptionJobs {
   };
   PerceptionJobs(Config config, Executor& executor, const RobotGeometry& robot,
                  const StateHistory& history, const SelfFilter& self_filter,
-                 const BoxMapAligner& aligner, HeatDetector& detector, double heat_latency_s);
+                 const ScanLocator& locator, HeatDetector& detector, double heat_latency_s);
 
   void onScan(PointCloudPtr scan);        ///< any thread
   void onThermal(ThermalImagePtr image);  ///< any thread
-  /// Posts jobs for what has arrived. `tracker` gives the prior; `moving` chooses how often to
-  /// align.
-  void dispatch(Stamp now, const PoseTracker& tracker, bool moving);
+  /// Posts jobs for what has arrived. `localizer` gives the prior; `moving` chooses how often to
+  /// locate.
+  void dispatch(Stamp now, Localizer& localizer, bool moving);
   [[nodiscard]] std::vector<ScanResult> takeScans() { return scan_results_.drain(); }
   [[nodiscard]] std::vector<HeatResult> takeHeat() { return heat_results_.drain(); }
   [[nodiscard]] std::optional<Stamp> lastScan() const { return last_scan_; }
@@ -54,17 +54,17 @@ class PerceptionJobs {
   [[nodiscard]] std::uint64_t droppedFrames() const;
 
  private:
-  void dispatchScan(Stamp now, const PoseTracker& tracker, bool moving);
+  void dispatchScan(Stamp now, Localizer& localizer, bool moving);
   void dispatchThermal();
-  [[nodiscard]] ScanResult processScan(const PointCloud& scan, const AlignmentPrior& prior,
-                                       bool align) const;
+  [[nodiscard]] ScanResult processScan(const PointCloud& scan,
+                                       const std::optional<AlignmentPrior>& prior) const;
 
   Config config_;
   Executor& executor_;
   const RobotGeometry& robot_;
   const StateHistory& history_;
   const SelfFilter& self_filter_;
-  const BoxMapAligner& aligner_;
+  const ScanLocator& locator_;
   HeatDetector& detector_;
   Duration heat_latency_;
   LatestValue<PointCloudPtr> scans_;

@@ -30,7 +30,8 @@ void warnIfFailed(const Result<void>& started) {
 Robot::Impl::Impl(const RobotSettings& settings_in, const RobotOptions& options_in,
                   Devices devices_in, const Clock& clock_in, Executor& executor,
                   OperatorLink* link_in, StopLatch& stop_in, RobotGeometry robot_in,
-                  ArenaMap arena_in, const SprayCalibration& spray_in, std::vector<Macro> macros_in)
+                  ArenaMap arena_in, const SprayCalibration& spray_in, std::vector<Macro> macros_in,
+                  std::unique_ptr<ScanLocator> locator_in)
     : settings(settings_in),
       options(options_in),
       devices(std::move(devices_in)),
@@ -43,10 +44,10 @@ Robot::Impl::Impl(const RobotSettings& settings_in, const RobotOptions& options_
       arm(settings.arm, robot, devices.arm, stop),
       pumps(settings.pumps, devices.pumps, stop),
       self_filter(robot, settings.self_filter),
-      aligner(settings.aligner, arena),
+      locator(std::move(locator_in)),
       detector(settings.heat_detector),
-      tracker(settings.pose),
-      perception(settings.perception, executor, robot, history, self_filter, aligner, detector,
+      localizer(settings.localization.localizer, arena),
+      perception(settings.perception, executor, robot, history, self_filter, *locator, detector,
                  settings.heat_detector.modelled_latency_s),
       drive(settings.drive_to, arena, base, [this] { return pose(); }),
       move_arm(settings.move_arm, robot, arena, arm, devices.arm, [this] { return pose(); }),
@@ -69,7 +70,7 @@ Robot::Impl::Impl(const RobotSettings& settings_in, const RobotOptions& options_
 void Robot::Impl::start(Executor& executor) {
   const Stamp now = clock.now();
   log_sink = addLogSink([this](const LogRecord& record) { telemetry.onLog(record, clock.now()); });
-  tracker.reset(arena.start.pose(), now);
+  localizer.reset(arena.start.pose(), now);
   resets_seen = devices.resets();
   if (devices.lidar)
     warnIfFailed(
@@ -108,25 +109,19 @@ void Robot::Impl::readSensors(Stamp now) {
     resets_seen = devices.resets();
     base.resetOdometry();
     history.clear();
-    tracker.reset(arena.start.pose(), now);
+    localizer.reset(arena.start.pose(), now);
     control.onReset(now);
     return;  // the old odometry is still in the tracking of this instant
   }
   const BaseTracking tracking = base.tracking();
-  if (tracking.ready) tracker.addOdometry(tracking.stamp, tracking.X_odom_base);
-  tracked = tracker.pose(now);
-  perception.dispatch(now, tracker, !tracking.at_rest);
+  if (tracking.ready) localizer.addOdometry(tracking.stamp, tracking.X_odom_base);
+  tracked = localizer.pose(now);
+  perception.dispatch(now, localizer, !tracking.at_rest);
 }
 
 void Robot::Impl::takePerception(Stamp now) {
   for (auto& result : perception.takeScans()) {
-    if (result.fix) {
-      if (*result.fix) {
-        (void)tracker.addFix(result.prior, **result.fix);
-      } else {
-        tracker.addFailure(result.prior);
-      }
-    }
+    if (result.match) (void)localizer.addResult(result.prior, *result.match);
     telemetry.publish(result.cloud);
   }
   for (auto& result : perception.takeHeat()) {
@@ -142,7 +137,7 @@ void Robot::Impl::takePerception(Stamp now) {
     telemetry.publish(result.image);
     telemetry.publish(std::move(result.detections));
   }
-  tracked = tracker.pose(now);
+  tracked = localizer.pose(now);
 }
 
 void Robot::Impl::obeyOperators(Stamp now) {
@@ -205,7 +200,7 @@ void Robot::Impl::recordEstimate(Stamp image, const Eigen::Isometry3d& X_map_the
 Result<void> Robot::Impl::resume(Stamp now) {
   if (auto resumed = mission.resumeFrom(checkpointPath(), now); !resumed) return resumed;
   mission_start = now;
-  tracker.reset(world.state().X_map_base, now);
+  localizer.reset(world.state().X_map_base, now);
   mission.machine().pause("resuming: waiting for sensors and position", now);
   resume_pending = true;
   return {};
@@ -226,9 +221,11 @@ Result<std::unique_ptr<Robot>> Robot::create(const RobotSettings& settings,
   if (!folder) return tl::make_unexpected(folder.error());
   auto macros = loadMacros(*folder);
   if (!macros) return tl::make_unexpected(macros.error());
-  auto impl =
-      std::make_unique<Impl>(settings, options, std::move(devices), clock, executor, link, stop,
-                             std::move(*robot), std::move(*arena), *spray, std::move(*macros));
+  auto locator = makeLocator(settings.localization, *arena);
+  if (!locator) return tl::make_unexpected(locator.error());
+  auto impl = std::make_unique<Impl>(settings, options, std::move(devices), clock, executor, link,
+                                     stop, std::move(*robot), std::move(*arena), *spray,
+                                     std::move(*macros), std::move(*locator));
   impl->start(executor);
   if (options.resume) {
     if (auto resumed = impl->resume(clock.now()); !resumed)

@@ -17,7 +17,7 @@ struct Robot::Impl {
   Impl(const RobotSettings& settings_in, const RobotOptions& options_in, Devices devices_in,
        const Clock& clock_in, Executor& executor, OperatorLink* link_in, StopLatch& stop_in,
        RobotGeometry robot_in, ArenaMap arena_in, const SprayCalibration& spray_in,
-       std::vector<Macro> macros_in);
+       std::vector<Macro> macros_in, std::unique_ptr<ScanLocator> locator_in);
   void start(Executor& executor);
   void controlTick(Stamp now);
   void missionTick(Stamp now);
@@ -60,9 +60,9 @@ struct Robot::Impl {
   PumpController pumps;
   StateHistory history;
   SelfFilter self_filter;
-  BoxMapAligner aligner;
+  std::unique_ptr<ScanLocator> locator;
   HeatDetector detector;
-  PoseTracker tracker;
+  Localizer localizer;
   TrackedPose tracked;
   PerceptionJobs perception;
   DriveTo drive;

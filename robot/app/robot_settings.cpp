@@ -18,8 +18,7 @@ void RobotSettings::visit(ConfigArchive& a) {
   a.section("move_arm", move_arm, "arm motion");
   a.section("self_filter", self_filter, "the robot's own body in its scans");
   a.section("perception", perception, "how often what is looked at");
-  a.section("aligner", aligner, "scan against the nominal walls");
-  a.section("pose", pose, "odometry and fixes");
+  a.section("localization", localization, "where the robot is");
   a.section("heat_detector", heat_detector, "thermal picture");
   a.section("heat_localizer", heat_localizer, "heat source over a sweep");
   a.section("fire", fire, "fire mission");

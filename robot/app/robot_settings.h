@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "robot/app/localization_settings.h"
 #include "robot/app/perception_jobs.h"
 #include "robot/app/preflight.h"
 #include "robot/app/teleop.h"
@@ -31,8 +32,7 @@ struct RobotSettings {
   MoveArm::Config move_arm;
   SelfFilter::Config self_filter;
   PerceptionJobs::Config perception;
-  BoxMapAligner::Config aligner;
-  PoseTracker::Config pose;
+  LocalizationSettings localization;
   HeatDetector::Config heat_detector;
   HeatLocalizer::Config heat_localizer;
   FireConfig fire;

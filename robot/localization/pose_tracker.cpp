@@ -17,11 +17,23 @@ bool finite(const Pose2& X) {
   return std::isfinite(X.x_m) && std::isfinite(X.y_m) && std::isfinite(X.yaw_rad);
 }
 
+/// Covariance of (x, y, yaw) out of one of (x, y, z, roll, pitch, yaw).
+Eigen::Matrix3d planar(const Eigen::Matrix<double, 6, 6>& covariance) {
+  constexpr int kRows[3] = {0, 1, 5};
+  Eigen::Matrix3d out;
+  for (int r = 0; r < 3; ++r) {
+    for (int c = 0; c < 3; ++c) out(r, c) = covariance(kRows[r], kRows[c]);
+  }
+  return out;
+}
+
 Eigen::Vector3d difference(const Pose2& a, const Pose2& b) {
   return {a.x_m - b.x_m, a.y_m - b.y_m, wrapAngle(a.yaw_rad - b.yaw_rad)};
 }
 
 }  // namespace
+
+std::string_view toString(Submap submap) { return submap == Submap::Indoor ? "indoor" : "outdoor"; }
 
 std::string_view toString(PoseHealth health) {
   switch (health) {
@@ -46,6 +58,7 @@ void PoseTracker::Config::visit(ConfigArchive& a) {
   a.field("walk_sigma_deg", walk_sigma_deg, "deg", 0, 10, "random walk of the yaw in one second");
   a.field("gate_sigmas", gate_sigmas, "", 1, 100, "fixes further off are refused");
   a.field("search_after_rejections", search_after_rejections, "", 1, 1000, "scans");
+  a.field("lost_after_rejections", lost_after_rejections, "", 1, 10000, "scans");
   a.field("correction_rate_mps", correction_rate_mps, "m/s", 0.01, 10, "slew of the correction");
   a.field("correction_rate_deg_s", correction_rate_deg_s, "deg/s", 0.1, 360,
           "slew of the correction");
@@ -53,10 +66,16 @@ void PoseTracker::Config::visit(ConfigArchive& a) {
   a.field("good_age_s", good_age_s, "s", 0.1, 600, "above: degraded");
   a.field("lost_age_s", lost_age_s, "s", 0.1, 3600, "above: lost");
   a.field("lost_sigma_m", lost_sigma_m, "m", 0.01, 100, "above: lost");
+  a.field("lost_distance_m", lost_distance_m, "m", 0.01, 1000, "driven since the last fix");
   a.field("history_s", history_s, "s", 0.2, 60, "odometry kept for late scans");
+  a.field("odometry_only", odometry_only, "take no fixes: to compare with");
 }
 
-void PoseTracker::reset(const Pose2& X_map_base, Stamp now) {
+void PoseTracker::reset(const Eigen::Isometry3d& X_map_base_3d, Stamp now) {
+  const Pose2 X_map_base = projectToGround(X_map_base_3d);
+  ground_point_ = X_map_base_3d.translation();
+  ground_normal_ = X_map_base_3d.linear().col(2);
+  last_failure_.clear();
   odometry_.clear();
   X_map_base_reset_ = X_map_base;
   X_map_odom_ = X_map_odom_control_ = X_map_base;
@@ -138,23 +157,51 @@ std::optional<Pose2> PoseTracker::odometryAt(Stamp t) const {
 std::optional<AlignmentPrior> PoseTracker::priorAt(Stamp t) const {
   const auto X_odom_base = odometryAt(t);
   if (!X_odom_base) return std::nullopt;
-  return AlignmentPrior{t, *X_odom_base, X_map_odom_ * *X_odom_base,
-                        !has_fix_ || rejected_in_a_row_ >= config_.search_after_rejections, epoch_};
+  if (config_.odometry_only) return std::nullopt;
+  const Pose2 X_map_base = X_map_odom_ * *X_odom_base;
+  return AlignmentPrior{t,
+                        *X_odom_base,
+                        X_map_base,
+                        onGround(X_map_base),
+                        !has_fix_ || rejected_in_a_row_ >= config_.search_after_rejections,
+                        epoch_};
 }
 
-bool PoseTracker::addFix(const AlignmentPrior& prior, const Alignment& alignment) {
+/// The base on the plane that it stands on: its yaw, that plane's tilt.
+Eigen::Isometry3d PoseTracker::onGround(const Pose2& X_map_base) const {
+  const Eigen::Vector2d step(X_map_base.x_m - ground_point_.x(),
+                             X_map_base.y_m - ground_point_.y());
+  const double z_m = ground_point_.z() - ground_normal_.head<2>().dot(step) / ground_normal_.z();
+  const Eigen::Vector3d heading(std::cos(X_map_base.yaw_rad), std::sin(X_map_base.yaw_rad), 0.0);
+  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
+  X.translation() = Eigen::Vector3d(X_map_base.x_m, X_map_base.y_m, z_m);
+  // Forward lies in the plane, above the heading.
+  const Eigen::Vector3d forward =
+      (heading - Eigen::Vector3d::UnitZ() * ground_normal_.dot(heading) / ground_normal_.z())
+          .normalized();
+  X.linear().col(0) = forward;
+  X.linear().col(2) = ground_normal_;
+  X.linear().col(1) = ground_normal_.cross(forward);
+  return X;
+}
+
+bool PoseTracker::addFix(const AlignmentPrior& prior, const ScanMatch& match) {
   if (prior.epoch != epoch_) return false;
+  const Pose2 X_map_base = projectToGround(match.X_map_base);
+  const Eigen::Matrix3d match_covariance = planar(match.covariance);
   // The error of X_map_odom does not change while a scan is being aligned, so the fix is applied
   // where it was taken.
   const Pose2 predicted = X_map_odom_ * prior.X_odom_base;
-  const Eigen::Vector3d innovation = difference(alignment.X_map_base, predicted);
-  const Eigen::Matrix3d S = covariance_ + alignment.covariance;
+  const Eigen::Vector3d innovation = difference(X_map_base, predicted);
+  const Eigen::Matrix3d S = covariance_ + match_covariance;
   const Eigen::Matrix3d S_inverse = S.inverse();
   const double mahalanobis_squared = innovation.dot(S_inverse * innovation);
   const bool plausible =
       innovation.allFinite() && mahalanobis_squared <= squared(config_.gate_sigmas);
   // What a wide search found replaces a belief that has failed; anything else must agree with it.
   if (!plausible && !prior.search) {
+    last_failure_ = fmt::format("the scan says {:.2f} m and {:.1f} deg elsewhere",
+                                innovation.head<2>().norm(), std::abs(innovation.z()) / kDeg);
     ++rejected_;
     ++rejected_in_a_row_;
     return false;
@@ -167,12 +214,19 @@ bool PoseTracker::addFix(const AlignmentPrior& prior, const Alignment& alignment
                           wrapAngle(predicted.yaw_rad + delta.z())};
     X_map_odom_ = corrected * inverse(prior.X_odom_base);
     const Eigen::Matrix3d rest = Eigen::Matrix3d::Identity() - K;
-    covariance_ = rest * covariance_ * rest.transpose() + K * alignment.covariance * K.transpose();
+    covariance_ = rest * covariance_ * rest.transpose() + K * match_covariance * K.transpose();
   } else {
-    X_map_odom_ = alignment.X_map_base * inverse(prior.X_odom_base);
-    covariance_ = alignment.covariance;
+    X_map_odom_ = X_map_base * inverse(prior.X_odom_base);
+    covariance_ = match_covariance;
   }
-  if (!has_fix_) X_map_odom_control_ = X_map_odom_;  // nothing has moved by the old belief yet
+  // Nothing moves by the old belief: there was none, or the robot stands because it is lost.
+  if (!has_fix_ || rejected_in_a_row_ >= config_.lost_after_rejections)
+    X_map_odom_control_ = X_map_odom_;
+  ground_point_ = match.X_map_base.translation();
+  ground_normal_ = match.X_map_base.linear().col(2);
+  inlier_fraction_ = match.inlier_fraction;
+  observable_directions_ = match.observable_directions;
+  last_failure_.clear();
   has_fix_ = true;
   last_fix_ = prior.stamp;
   distance_since_fix_m_ = 0.0;
@@ -181,8 +235,9 @@ bool PoseTracker::addFix(const AlignmentPrior& prior, const Alignment& alignment
   return true;
 }
 
-void PoseTracker::addFailure(const AlignmentPrior& prior) {
+void PoseTracker::addFailure(const AlignmentPrior& prior, const std::string& why) {
   if (prior.epoch != epoch_) return;
+  last_failure_ = why;
   ++rejected_;
   ++rejected_in_a_row_;
 }
@@ -200,14 +255,39 @@ TrackedPose PoseTracker::pose(Stamp now) const {
   out.distance_since_fix_m = distance_since_fix_m_;
   out.fixes = fixes_;
   out.rejected = rejected_;
-  if (!has_fix_ || out.age_s > config_.lost_age_s || out.sigma_m > config_.lost_sigma_m) {
-    out.health = PoseHealth::Lost;
-  } else if (out.age_s > config_.good_age_s || out.sigma_m > config_.good_sigma_m) {
-    out.health = PoseHealth::Degraded;
-  } else {
-    out.health = PoseHealth::Good;
-  }
+  out.inlier_fraction = inlier_fraction_;
+  out.observable_directions = observable_directions_;
+  out.X_map_base_3d = onGround(out.X_map_base);
+  out.health = health(out, out.reason);
   return out;
+}
+
+PoseHealth PoseTracker::health(const TrackedPose& pose, std::string& reason) const {
+  if (config_.odometry_only) return PoseHealth::Good;
+  const auto because = [&](std::string what) {
+    reason = last_failure_.empty() ? std::move(what)
+                                   : fmt::format("{}: {}", std::move(what), last_failure_);
+  };
+  if (!has_fix_) {
+    because("no scan matched yet");
+  } else if (rejected_in_a_row_ >= config_.lost_after_rejections) {
+    because(fmt::format("{} scans in a row did not match", rejected_in_a_row_));
+  } else if (pose.age_s > config_.lost_age_s) {
+    because(fmt::format("no scan matched for {:.0f} s", pose.age_s));
+  } else if (pose.distance_since_fix_m > config_.lost_distance_m) {
+    because(fmt::format("drove {:.1f} m on odometry alone", pose.distance_since_fix_m));
+  } else if (pose.sigma_m > config_.lost_sigma_m) {
+    because(fmt::format("position known to {:.2f} m only", pose.sigma_m));
+  } else if (pose.age_s > config_.good_age_s) {
+    because(fmt::format("on odometry for {:.1f} s", pose.age_s));
+    return PoseHealth::Degraded;
+  } else if (pose.sigma_m > config_.good_sigma_m) {
+    because(fmt::format("position known to {:.2f} m", pose.sigma_m));
+    return PoseHealth::Degraded;
+  } else {
+    return PoseHealth::Good;
+  }
+  return PoseHealth::Lost;
 }
 
 }  // namespace kiln

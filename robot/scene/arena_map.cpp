@@ -27,6 +27,7 @@ void ArenaMap::visit(ConfigArchive& a) {
   a.section("start", start, "nominal start pose");
   a.list("walls", walls, "fixed structure");
   a.list("furniture", furniture, "roughly known boxes");
+  a.section("doorway", doorway, "middle of the entrance, X into the building");
   a.list("entry_path", entry_path, "way-points from the start to the hub inside");
   a.list("fire_places", fire_places, "known fire places, in the order of visits");
   a.field("geofence_x_min_m", geofence_x_min_m, "m", -1e3, 1e3, "the base centre stays inside");

@@ -37,6 +37,7 @@ struct ArenaMap {
   GroundPoseConfig start;                    ///< nominal start pose
   std::vector<BoxConfig> walls;              ///< fixed structure: exact up to 2 mm in the world
   std::vector<BoxConfig> furniture;          ///< known only roughly (+-15 cm)
+  GroundPoseConfig doorway;                  ///< middle of the entrance, X into the building
   std::vector<GroundPoseConfig> entry_path;  ///< way-points start -> inside (last one is the hub)
   std::vector<FirePlaceConfig> fire_places;
   double geofence_x_min_m = -3, geofence_x_max_m = 16, geofence_y_min_m = -7, geofence_y_max_m = 7;

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "robot/localization/scan_locator.h"
 #include "tests/unit/robot/localization/synthetic_scan.h"
 
 namespace kiln {
@@ -19,18 +20,18 @@ Stamp at(double seconds) { return Stamp{fromSeconds(seconds)}; }
 
 double distance(const Pose2& a, const Pose2& b) { return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m); }
 
-Alignment fixAt(const AlignmentPrior& prior, const Pose2& X_map_base) {
-  Alignment fix;
+ScanMatch fixAt(const AlignmentPrior& prior, const Pose2& X_map_base) {
+  ScanMatch fix;
   fix.stamp = prior.stamp;
-  fix.X_map_base = X_map_base;
-  fix.covariance = Eigen::Vector3d(1e-4, 1e-4, 1e-5).asDiagonal();
-  fix.observable_directions = 3;
+  fix.X_map_base = toIsometry(X_map_base);
+  fix.covariance.diagonal() << 1e-4, 1e-4, 1e-4, 1e-5, 1e-5, 1e-5;
+  fix.observable_directions = 6;
   return fix;
 }
 
 TEST(PoseTracker, IsLostUntilTheFirstFixThenTakesItAtOnce) {
   PoseTracker tracker({});
-  tracker.reset({}, at(0));
+  tracker.reset(Eigen::Isometry3d::Identity(), at(0));
   EXPECT_FALSE(tracker.priorAt(at(0)).has_value()) << "no odometry yet";
   tracker.addOdometry(at(0.02), {1.0, 2.0, 0.5});  // odometry need not start at zero
   EXPECT_EQ(tracker.pose(at(0.02)).health, PoseHealth::Lost);
@@ -50,7 +51,7 @@ TEST(PoseTracker, IsLostUntilTheFirstFixThenTakesItAtOnce) {
 
 TEST(PoseTracker, LimitsHowFastACorrectionReachesControl) {
   PoseTracker tracker({});
-  tracker.reset({}, at(0));
+  tracker.reset(Eigen::Isometry3d::Identity(), at(0));
   tracker.addOdometry(at(0), {});
   const auto first = tracker.priorAt(at(0));
   ASSERT_TRUE(tracker.addFix(*first, fixAt(*first, {})));
@@ -73,7 +74,7 @@ TEST(PoseTracker, LimitsHowFastACorrectionReachesControl) {
 
 TEST(PoseTracker, RefusesAWildFixAndSearchesAfterFive) {
   PoseTracker tracker({});
-  tracker.reset({}, at(0));
+  tracker.reset(Eigen::Isometry3d::Identity(), at(0));
   tracker.addOdometry(at(0), {});
   const auto first = tracker.priorAt(at(0));
   ASSERT_TRUE(tracker.addFix(*first, fixAt(*first, {})));
@@ -95,10 +96,10 @@ TEST(PoseTracker, RefusesAWildFixAndSearchesAfterFive) {
 
 TEST(PoseTracker, IgnoresAFixFromBeforeAReset) {
   PoseTracker tracker({});
-  tracker.reset({}, at(0));
+  tracker.reset(Eigen::Isometry3d::Identity(), at(0));
   tracker.addOdometry(at(0), {});
   const auto stale = tracker.priorAt(at(0));
-  tracker.reset({}, at(1));
+  tracker.reset(Eigen::Isometry3d::Identity(), at(1));
   tracker.addOdometry(at(1), {});
   EXPECT_FALSE(tracker.addFix(*stale, fixAt(*stale, {0.3, 0.3, 0.0})));
   EXPECT_EQ(tracker.pose(at(1)).health, PoseHealth::Lost);
@@ -106,7 +107,7 @@ TEST(PoseTracker, IgnoresAFixFromBeforeAReset) {
 
 TEST(PoseTracker, GoesFromGoodToDegradedToLostWithoutFixes) {
   PoseTracker tracker({});
-  tracker.reset({}, at(0));
+  tracker.reset(Eigen::Isometry3d::Identity(), at(0));
   tracker.addOdometry(at(0), {});
   const auto prior = tracker.priorAt(at(0));
   ASSERT_TRUE(tracker.addFix(*prior, fixAt(*prior, {})));
@@ -115,9 +116,43 @@ TEST(PoseTracker, GoesFromGoodToDegradedToLostWithoutFixes) {
   EXPECT_EQ(tracker.pose(at(21.0)).health, PoseHealth::Lost);
 }
 
+TEST(PoseTracker, FollowsTheSlopeItStandsOnBetweenFixes) {
+  PoseTracker tracker({});
+  tracker.reset(Eigen::Isometry3d::Identity(), at(0));
+  tracker.addOdometry(at(0), {});
+  const auto prior = tracker.priorAt(at(0));
+  ScanMatch fix = fixAt(*prior, {});
+  fix.X_map_base = makePose({0, 0, -0.2}, {0, -4 * kDeg, 0});  // nose up
+  ASSERT_TRUE(tracker.addFix(*prior, fix));
+  tracker.addOdometry(at(0.1), {0.1, 0.0, 0.0});
+  const Eigen::Isometry3d uphill = tracker.pose(at(0.1)).X_map_base_3d;
+  EXPECT_NEAR(uphill.translation().z(), -0.2 + 0.1 * std::tan(4 * kDeg), 2e-4);
+  EXPECT_NEAR(rotationAngle(uphill.inverse() * fix.X_map_base), 0.0, 1e-3);
+  // Turned across the slope the robot leans sideways by as much.
+  tracker.addOdometry(at(0.2), {0.1, 0.0, 90 * kDeg});
+  const Eigen::Isometry3d across = tracker.pose(at(0.2)).X_map_base_3d;
+  EXPECT_NEAR(across.linear()(2, 0), 0.0, 2e-3);
+  EXPECT_NEAR(across.linear()(2, 1), -std::sin(4 * kDeg), 2e-3);
+}
+
+TEST(PoseTracker, IsLostAfterTwentyScansThatDoNotFitAndSaysWhy) {
+  PoseTracker tracker({});
+  tracker.reset(Eigen::Isometry3d::Identity(), at(0));
+  tracker.addOdometry(at(0), {});
+  const auto first = tracker.priorAt(at(0));
+  ASSERT_TRUE(tracker.addFix(*first, fixAt(*first, {})));
+  for (int i = 1; i <= 20; ++i) {
+    tracker.addOdometry(at(0.05 * i), {});
+    tracker.addFailure(*tracker.priorAt(at(0.05 * i)), "the map explains 12 % of the scan");
+  }
+  const TrackedPose pose = tracker.pose(at(1.0));
+  EXPECT_EQ(pose.health, PoseHealth::Lost);
+  EXPECT_NE(pose.reason.find("explains 12 %"), std::string::npos) << pose.reason;
+}
+
 TEST(PoseTracker, IgnoresBadOdometryAndInterpolatesTheRest) {
   PoseTracker tracker({});
-  tracker.reset({}, at(0));
+  tracker.reset(Eigen::Isometry3d::Identity(), at(0));
   tracker.addOdometry(at(1.0), {1.0, 0.0, 179 * kDeg});
   tracker.addOdometry(at(1.1), {std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0});
   tracker.addOdometry(at(0.5), {9.0, 9.0, 0.0});
@@ -134,14 +169,14 @@ TEST(PoseTracker, IgnoresBadOdometryAndInterpolatesTheRest) {
 /// along, 0.3 deg aside, and a turn).
 TEST(PoseTracker, KeepsThePoseFromTheStartThroughTheDoor) {
   const ArenaMap arena = testing::kitchen();
-  const BoxMapAligner aligner({}, arena);
+  const WallLocator locator({}, arena);
   ScanSettings settings;
   settings.boxes = arena.walls;
   for (const auto& box : testing::moved(arena.furniture, 0.15, 5)) settings.boxes.push_back(box);
   settings.random_return_fraction = 0.05;
 
   PoseTracker tracker({});
-  tracker.reset(arena.start.pose(), at(0));
+  tracker.reset(toIsometry(arena.start.pose()), at(0));
   Pose2 truth{0.15, -0.18, 4 * kDeg};
   Pose2 X_odom_base;
   double worst_inside = 0.0;
@@ -158,13 +193,11 @@ TEST(PoseTracker, KeepsThePoseFromTheStartThroughTheDoor) {
     settings.seed = static_cast<std::uint32_t>(i + 1);
     const auto scan = castScan(settings, truth);
     const auto prior = tracker.priorAt(stamp);
-    const auto found = prior->search
-                           ? aligner.search(scan, settings.p_base_sensor, prior->X_map_base)
-                           : aligner.align(scan, settings.p_base_sensor, prior->X_map_base);
+    const auto found = locator.locate(scan, settings.p_base_sensor, *prior);
     if (found) {
       tracker.addFix(*prior, *found);
     } else {
-      tracker.addFailure(*prior);
+      tracker.addFailure(*prior, found.error().message);
     }
     const TrackedPose pose = tracker.pose(stamp);
     EXPECT_NE(pose.health, PoseHealth::Lost) << "at x " << truth.x_m;
