@@ -80,6 +80,21 @@ MacroStatus fromProto(const v1::MacroStatus& in) {
   return {in.running(), in.step(), in.steps(), in.step_text(), in.progress(), in.last_result()};
 }
 
+void toProto(const RecordingStatus& recording, v1::RecordingStatus& out) {
+  out.set_on(recording.on);
+  out.set_file(validUtf8(recording.file));
+  out.set_duration_s(recording.duration_s);
+  out.set_bytes(recording.bytes);
+  out.set_dropped(recording.dropped);
+  out.set_disk_free_bytes(recording.disk_free_bytes);
+  out.set_problem(validUtf8(recording.problem));
+}
+
+RecordingStatus fromProto(const v1::RecordingStatus& in) {
+  return {in.on(),     in.file(), in.duration_s(), in.bytes(), in.dropped(), in.disk_free_bytes(),
+          in.problem()};
+}
+
 void listsToProto(const RobotStatus& status, v1::RobotStatus& out) {
   for (const Check& check : status.checks) {
     v1::Check& row = *out.add_checks();
@@ -164,6 +179,7 @@ std::string encode(const RobotStatus& status) {
   out.set_battery_a(status.battery_a);
   toProto(status.water, *out.mutable_water());
   toProto(status.macro, *out.mutable_macro());
+  toProto(status.recording, *out.mutable_recording());
   out.set_speed_scale(status.speed_scale);
   out.set_mission_elapsed_s(status.mission_elapsed_s);
   out.set_mission_limit_s(status.mission_limit_s);
@@ -194,6 +210,7 @@ Result<RobotStatus> decodeRobotStatus(std::string_view bytes) {
   status.battery_v = in->battery_v();
   status.battery_a = in->battery_a();
   status.macro = fromProto(in->macro());
+  status.recording = fromProto(in->recording());
   status.speed_scale = in->speed_scale();
   status.mission_elapsed_s = in->mission_elapsed_s();
   status.mission_limit_s = in->mission_limit_s();
