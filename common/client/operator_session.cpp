@@ -12,7 +12,6 @@
 #include "common/client/topic_dispatch.h"
 #include "common/transport/clock_sync.h"
 #include "common/transport/station_end.h"
-#include "common/transport/stop_lane.h"
 #include "common/wire/command.h"
 
 namespace kiln {
@@ -57,9 +56,8 @@ struct OperatorSession::Impl {
   void bad(const Error& error) {
     if (callbacks.on_bad_message) callbacks.on_bad_message(error);
   }
-  // stop thread
-  bool onStopAnswer(std::string_view bytes);
-  void onStopSent();
+
+  [[nodiscard]] Result<std::unique_ptr<StopCaller>> connectStopLane(const std::string& address);
 
   // any thread; the mutex is held
   [[nodiscard]] LinkReport makeReport(Monotonic::time_point now) const;
@@ -77,8 +75,6 @@ struct OperatorSession::Impl {
   CommandTracker tracker;
   HoldStream holds;
   LeaseView lease;
-  StopReport stop_report;
-  StopRequest stop_request;
   std::uint64_t last_nonce = 0;
   std::uint64_t heartbeats = 0;
   int quick_heartbeats = 0;
@@ -90,7 +86,7 @@ struct OperatorSession::Impl {
   std::deque<CommandUpdate> updates;  // to be delivered on the link thread
 
   std::unique_ptr<StationEnd> end;
-  std::unique_ptr<StopClient> stop_client;
+  std::unique_ptr<StopCaller> stop_caller;
 };
 
 Result<std::unique_ptr<OperatorSession>> OperatorSession::open(Config config, Callbacks callbacks,
@@ -108,12 +104,9 @@ Result<std::unique_ptr<OperatorSession>> OperatorSession::open(Config config, Ca
                     impl->config.fault_seed};
   auto end = StationEnd::connect(*addresses, std::move(options));
   if (!end) return tl::make_unexpected(end.error());
-  auto stop_client = StopClient::connect(
-      addresses->stop,
-      {[raw = impl.get()](std::string_view bytes) { return raw->onStopAnswer(bytes); },
-       [raw = impl.get()] { raw->onStopSent(); }});
-  if (!stop_client) return tl::make_unexpected(stop_client.error());
-  impl->stop_client = std::move(*stop_client);
+  auto stop_caller = impl->connectStopLane(addresses->stop);
+  if (!stop_caller) return tl::make_unexpected(stop_caller.error());
+  impl->stop_caller = std::move(*stop_caller);
   impl->end = std::move(*end);
   impl->end->start(
       {[raw = impl.get()](std::string_view bytes) { raw->onMessage(bytes); },
@@ -124,6 +117,17 @@ Result<std::unique_ptr<OperatorSession>> OperatorSession::open(Config config, Ca
        },
        [raw = impl.get()] { raw->onTick(); }});
   return std::unique_ptr<OperatorSession>(new OperatorSession(std::move(impl)));
+}
+
+Result<std::unique_ptr<StopCaller>> OperatorSession::Impl::connectStopLane(
+    const std::string& address) {
+  return StopCaller::connect(address, client_id, config.operator_name,
+                             {callbacks.on_stop, callbacks.on_bad_message,
+                              [this](std::int64_t robot_ns) {
+                                const std::lock_guard lock(mutex);
+                                return sync.toStation(robot_ns);
+                              }},
+                             clock);
 }
 
 OperatorSession::OperatorSession(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -326,42 +330,6 @@ void OperatorSession::Impl::finishUpdates(std::unique_lock<std::mutex>& lock) {
   }
 }
 
-// --- stop thread
-// -----------------------------------------------------------------------------------------------------
-
-bool OperatorSession::Impl::onStopAnswer(std::string_view bytes) {
-  const auto ack = wire::decodeStopAck(bytes);
-  if (!ack) {
-    bad(ack.error());
-    return false;
-  }
-  StopReport report;
-  {
-    const std::lock_guard lock(mutex);
-    if (ack->nonce != stop_request.nonce || !ack->latched) return false;
-    stop_report.state = StopReport::State::Latched;
-    stop_report.round_trip_s =
-        static_cast<double>(toNanoseconds(clock.now()) - ack->sent_station_ns) * 1e-9;
-    const auto latched = sync.toStation(ack->latched_robot_ns);
-    stop_report.send_to_latched_s =
-        latched ? static_cast<double>(*latched - ack->sent_station_ns) * 1e-9
-                : stop_report.round_trip_s;
-    report = stop_report;
-  }
-  if (callbacks.on_stop) callbacks.on_stop(report);
-  return true;
-}
-
-void OperatorSession::Impl::onStopSent() {
-  StopReport report;
-  {
-    const std::lock_guard lock(mutex);
-    ++stop_report.repetitions;
-    report = stop_report;
-  }
-  if (callbacks.on_stop) callbacks.on_stop(report);
-}
-
 // --- any thread
 // ------------------------------------------------------------------------------------------------------
 
@@ -402,16 +370,8 @@ void OperatorSession::releaseAll() {
 }
 
 void OperatorSession::stop() {
-  StopRequest request;
-  {
-    const std::lock_guard lock(impl_->mutex);
-    impl_->holds.releaseAll();
-    request = {impl_->client_id, impl_->config.operator_name, impl_->stop_request.nonce + 1,
-               toNanoseconds(impl_->clock.now())};
-    impl_->stop_request = request;
-    impl_->stop_report = {StopReport::State::Sent, 0, 0.0, 0.0};
-  }
-  impl_->stop_client->request(wire::encode(request));
+  releaseAll();
+  impl_->stop_caller->press();
 }
 
 const std::string& OperatorSession::clientId() const { return impl_->client_id; }
@@ -426,10 +386,7 @@ LeaseView OperatorSession::lease() const {
   return impl_->lease;
 }
 
-StopReport OperatorSession::stopReport() const {
-  const std::lock_guard lock(impl_->mutex);
-  return impl_->stop_report;
-}
+StopReport OperatorSession::stopReport() const { return impl_->stop_caller->report(); }
 
 std::optional<Stamp> OperatorSession::toStationTime(Stamp robot) const {
   const std::lock_guard lock(impl_->mutex);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "common/client/stop_caller.h"
 #include "common/core/clock.h"
 #include "common/core/error.h"
 #include "common/model/fire.h"
@@ -60,16 +61,6 @@ struct CommandUpdate {
   std::string reason;
   std::string lease_holder;
   double answered_after_s = 0.0;
-};
-
-/// Progress of a STOP.
-struct StopReport {
-  enum class State : std::uint8_t { Idle, Sent, Latched };
-  State state = State::Idle;
-  int repetitions = 0;  ///< requests that have left; 0 = none yet, there is no link
-  double send_to_latched_s =
-      0.0;  ///< robot's latch time minus our send time, through the clock estimate
-  double round_trip_s = 0.0;  ///< send -> acknowledgement
 };
 
 /// A client's lease as the session knows it.

@@ -42,6 +42,9 @@ struct CancelMacro {};
 struct AcknowledgeAlarm {
   std::string id;
 };
+struct SetRecording {
+  bool on = true;
+};  ///< moves nothing: needs no lease
 
 // --- hold-to-run setpoints: streamed at 25 Hz, never acknowledged when fine, refused at 300 ms of
 // age -----------
@@ -66,7 +69,7 @@ struct ReleaseAll {};  ///< explicit zero: sent three times on release
 using CommandBody =
     std::variant<AcquireLease, ReleaseLease, StartMission, Pause, Resume, ChangeState, SetMode,
                  ClearStop, ReleaseProtectiveStop, ResetRobot, SetSpeedScale, CancelMacro,
-                 AcknowledgeAlarm, JogBase, JogArm, HoldPump, HoldMacro, ReleaseAll>;
+                 AcknowledgeAlarm, SetRecording, JogBase, JogArm, HoldPump, HoldMacro, ReleaseAll>;
 
 struct Command {
   std::string client_id;          ///< random per process

@@ -116,6 +116,7 @@ struct NameOf {
   std::string_view operator()(const SetSpeedScale&) const { return "set_speed_scale"; }
   std::string_view operator()(const CancelMacro&) const { return "cancel_macro"; }
   std::string_view operator()(const AcknowledgeAlarm&) const { return "acknowledge_alarm"; }
+  std::string_view operator()(const SetRecording&) const { return "set_recording"; }
   std::string_view operator()(const JogBase&) const { return "jog_base"; }
   std::string_view operator()(const JogArm&) const { return "jog_arm"; }
   std::string_view operator()(const HoldPump&) const { return "hold_pump"; }

@@ -92,6 +92,7 @@ struct WheelState {
   double steer_rad = 0.0;
   double drive_radps = 0.0;
   double drive_angle_rad = 0.0;  ///< accumulated, for odometry
+  double drive_current_a = 0.0;  ///< of the hub motor, sign of its torque
 };
 struct BaseState {
   Stamp stamp;

@@ -76,6 +76,16 @@ struct WaterStatus {
   std::array<double, 2> tank_l_est{};  ///< estimated litres left, left and right
   double sprayed_l_est = 0.0;          ///< whole mission
 };
+/// What the robot's recorder does.
+struct RecordingStatus {
+  bool on = false;
+  std::string file;  ///< name without its folder; the last one while off, empty = none yet
+  double duration_s = 0.0;
+  std::uint64_t bytes = 0;    ///< in the file
+  std::uint64_t dropped = 0;  ///< messages that found the recorder's queue full, since start
+  double disk_free_bytes = 0.0;
+  std::string problem;  ///< why it ended by itself: disk nearly full; empty = none
+};
 struct DropCount {
   std::string topic;
   std::uint64_t dropped = 0;
@@ -104,6 +114,7 @@ struct RobotStatus {
   double battery_a = 0.0;
   WaterStatus water;
   MacroStatus macro;
+  RecordingStatus recording;
   double speed_scale = 0.35;
   double mission_elapsed_s = 0.0;
   double mission_limit_s = 900.0;

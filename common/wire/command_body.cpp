@@ -29,6 +29,7 @@ struct BodyWriter {
   void operator()(const SetSpeedScale& b) const { out.set_set_speed_scale(b.scale); }
   void operator()(const CancelMacro&) const { out.mutable_cancel_macro(); }
   void operator()(const AcknowledgeAlarm& b) const { out.set_acknowledge_alarm(validUtf8(b.id)); }
+  void operator()(const SetRecording& b) const { out.set_set_recording(b.on); }
   void operator()(const JogBase& b) const { toProto(b.twist, *out.mutable_jog_base()); }
   void operator()(const JogArm& b) const {
     out.mutable_jog_arm()->set_frame(static_cast<std::uint32_t>(b.frame));
@@ -93,6 +94,8 @@ Result<CommandBody> bodyFromProto(const v1::Command& in) {
       return CancelMacro{};
     case v1::Command::kAcknowledgeAlarm:
       return AcknowledgeAlarm{in.acknowledge_alarm()};
+    case v1::Command::kSetRecording:
+      return SetRecording{in.set_recording()};
     case v1::Command::kJogBase:
       return JogBase{fromProto(in.jog_base())};
     case v1::Command::kJogArm:

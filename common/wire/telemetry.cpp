@@ -1,5 +1,6 @@
 #include "common/wire/telemetry.h"
 
+#include "common/wire/arm_state.h"
 #include "common/wire/geometry.h"
 #include "common/wire/proto_message.h"
 #include "kiln/v1/telemetry.pb.h"
@@ -66,35 +67,6 @@ Result<WaterStatus> fromProto(const v1::WaterStatus& in) {
   return water;
 }
 
-void toProto(const ArmState& arm, v1::ArmState& out) {
-  out.set_stamp_ns(toNanoseconds(arm.stamp));
-  out.set_seq(arm.seq);
-  for (int i = 0; i < 6; ++i) {
-    out.add_q_rad(arm.q[i]);
-    out.add_qd_radps(arm.qd[i]);
-    out.add_wrench(arm.wrench_tool[i]);
-  }
-  out.set_safety(static_cast<std::uint32_t>(arm.safety));
-  out.set_powered(arm.powered);
-}
-
-Result<ArmState> fromProto(const v1::ArmState& in) {
-  ArmState arm;
-  if (auto ok = copyFixed(in.q_rad(), arm.q, "arm joints"); !ok)
-    return tl::make_unexpected(ok.error());
-  if (auto ok = copyFixed(in.qd_radps(), arm.qd, "arm speeds"); !ok)
-    return tl::make_unexpected(ok.error());
-  if (auto ok = copyFixed(in.wrench(), arm.wrench_tool, "arm wrench"); !ok)
-    return tl::make_unexpected(ok.error());
-  const auto safety = toEnum(in.safety(), ArmSafetyMode::Fault, "arm safety mode");
-  if (!safety) return tl::make_unexpected(safety.error());
-  arm.stamp = stampFromNanoseconds(in.stamp_ns());
-  arm.seq = in.seq();
-  arm.safety = *safety;
-  arm.powered = in.powered();
-  return arm;
-}
-
 void toProto(const MacroStatus& macro, v1::MacroStatus& out) {
   out.set_running(macro.running);
   out.set_step(macro.step);
@@ -106,6 +78,21 @@ void toProto(const MacroStatus& macro, v1::MacroStatus& out) {
 
 MacroStatus fromProto(const v1::MacroStatus& in) {
   return {in.running(), in.step(), in.steps(), in.step_text(), in.progress(), in.last_result()};
+}
+
+void toProto(const RecordingStatus& recording, v1::RecordingStatus& out) {
+  out.set_on(recording.on);
+  out.set_file(validUtf8(recording.file));
+  out.set_duration_s(recording.duration_s);
+  out.set_bytes(recording.bytes);
+  out.set_dropped(recording.dropped);
+  out.set_disk_free_bytes(recording.disk_free_bytes);
+  out.set_problem(validUtf8(recording.problem));
+}
+
+RecordingStatus fromProto(const v1::RecordingStatus& in) {
+  return {in.on(),     in.file(), in.duration_s(), in.bytes(), in.dropped(), in.disk_free_bytes(),
+          in.problem()};
 }
 
 void listsToProto(const RobotStatus& status, v1::RobotStatus& out) {
@@ -192,6 +179,7 @@ std::string encode(const RobotStatus& status) {
   out.set_battery_a(status.battery_a);
   toProto(status.water, *out.mutable_water());
   toProto(status.macro, *out.mutable_macro());
+  toProto(status.recording, *out.mutable_recording());
   out.set_speed_scale(status.speed_scale);
   out.set_mission_elapsed_s(status.mission_elapsed_s);
   out.set_mission_limit_s(status.mission_limit_s);
@@ -222,6 +210,7 @@ Result<RobotStatus> decodeRobotStatus(std::string_view bytes) {
   status.battery_v = in->battery_v();
   status.battery_a = in->battery_a();
   status.macro = fromProto(in->macro());
+  status.recording = fromProto(in->recording());
   status.speed_scale = in->speed_scale();
   status.mission_elapsed_s = in->mission_elapsed_s();
   status.mission_limit_s = in->mission_limit_s();

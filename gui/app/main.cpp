@@ -130,6 +130,10 @@ int run(int argc, char** argv, const StationOptions& options) {
       std::cout << "]}" << std::endl;
       QApplication::quit();
     });
+    QObject::connect(probe.get(), &StopProbe::failed, &app, [](const QString& reason) {
+      std::cerr << "kiln-station: STOP key not timed: " << reason.toStdString() << std::endl;
+      QApplication::exit(EXIT_FAILURE);
+    });
   }
   QTimer signal_timer;
   quitOnSignal(signal_timer);

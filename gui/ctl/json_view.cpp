@@ -154,6 +154,12 @@ json toJson(const RobotStatus& status) {
                   {"mission_limit_s", status.mission_limit_s},
                   {"resets", status.resets},
                   {"score_est", status.score_est}});
+  out["recording"] = {{"on", status.recording.on},
+                      {"file", status.recording.file},
+                      {"duration_s", status.recording.duration_s},
+                      {"bytes", status.recording.bytes},
+                      {"dropped", status.recording.dropped},
+                      {"problem", status.recording.problem}};
   return out;
 }
 

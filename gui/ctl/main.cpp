@@ -18,7 +18,7 @@ struct Request {
   Console::Options options;
   std::function<int(Console&)> run;
   // Arguments of the subcommands.
-  std::string from_or_to, to, mode, name, alarm, frame = "base";
+  std::string from_or_to, to, mode, name, alarm, frame = "base", record;
   std::array<double, 3> base{};
   std::vector<double> arm;
   double left = 0.0, right = 0.0, seconds = 0.0, period_s = 0.5, scale = 0.35;
@@ -112,6 +112,15 @@ void addLeaseAndStop(CLI::App& app, Request& request) {
       });
   app.add_subcommand("stop", "STOP (software): latches, needs no control")->callback([&request] {
     request.run = kiln::ctl::stopRobot;
+  });
+  CLI::App* record =
+      app.add_subcommand("record", "record on | off: the robot's recorder; needs no control");
+  record->add_option("SWITCH", request.record)->required()->check(CLI::IsMember({"on", "off"}));
+  record->callback([&request] {
+    request.run = [&request](Console& console) {
+      return console.connect() ? console.run(kiln::SetRecording{request.record == "on"})
+                               : kiln::ctl::kNoLink;
+    };
   });
   CLI::App* alarms = app.add_subcommand("alarms", "list alarms, or acknowledge one");
   alarms->add_option("--ack", request.alarm, "id of the alarm to acknowledge");

@@ -78,6 +78,7 @@ void FakeLink::releaseSetpoints() {
 void FakeLink::stop() {
   lane_.pressed = true;
   lane_.acked = false;
+  ++lane_.press;
   emit stopLane(lane_);
   if (silent_) return;
   robot_.stop(operatorName().toStdString());

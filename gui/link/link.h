@@ -44,6 +44,7 @@ struct StopLane {
   bool pressed = false;   ///< this station is asking for a stop now (repeated at 20 Hz until acked)
   bool acked = false;     ///< the robot has latched it
   double latch_s = -1.0;  ///< press to ack, measured; < 0 unknown
+  std::uint64_t press = 0;  ///< which press of this station the above is about, counted from 1
 };
 
 /// The one seam between the station and a robot: live, fake (and later replay). Lives on the GUI

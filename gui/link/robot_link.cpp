@@ -77,6 +77,7 @@ struct RobotLink::Impl {
   [[nodiscard]] OperatorSession::Callbacks callbacks();
   void deliverHealth(const LinkReport& report);
   void deliverStop(const StopReport& report);
+  void deliverQuietLane();
   void noteArrival(const Arrival& arrival);
 
   RobotLink& link;
@@ -195,7 +196,7 @@ void RobotLink::Impl::deliverHealth(const LinkReport& r) {
   h.drops = r.drops;
   reachable = h.state == LinkState::Up || h.state == LinkState::Degraded;
   emit link.health(h);
-  if (session && session->stopReport().state != StopReport::State::Sent) deliverStop({});
+  if (session && session->stopReport().state != StopReport::State::Sent) deliverQuietLane();
 }
 
 void RobotLink::Impl::deliverStop(const StopReport& r) {
@@ -204,11 +205,19 @@ void RobotLink::Impl::deliverStop(const StopReport& r) {
   lane.pressed = r.state != StopReport::State::Idle;
   lane.acked = r.state == StopReport::State::Latched;
   lane.latch_s = lane.acked ? r.round_trip_s : -1.0;
+  lane.press = r.press;
   emit link.stopLane(lane);
   if (!lane.acked) return;
   QTimer::singleShot(kAckShown_ms, &link, [this] {
-    if (session && session->stopReport().state == StopReport::State::Latched) deliverStop({});
+    if (session && session->stopReport().state == StopReport::State::Latched) deliverQuietLane();
   });
+}
+
+/// Nothing is asked for and no answer is to be shown: what the robot says of itself counts.
+void RobotLink::Impl::deliverQuietLane() {
+  StopReport quiet;
+  quiet.press = session->stopReport().press;
+  deliverStop(quiet);
 }
 
 RobotLink::RobotLink(Options options, QObject* parent)

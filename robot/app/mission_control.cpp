@@ -111,6 +111,12 @@ CommandAck MissionControl::executeDiscrete(const Command& command, Stamp now) {
     return answer(command, AckOutcome::Refused, "no_such_alarm",
                   fmt::format("there is no alarm '{}' any more", alarm->id));
   }
+  if (const auto* recording = std::get_if<SetRecording>(&body)) {
+    if (!parts_.set_recording)
+      return answer(command, AckOutcome::Refused, "no_recorder", "this robot has no recorder");
+    parts_.set_recording(recording->on);
+    return done(command);
+  }
   return answer(command, AckOutcome::Refused, "unknown_command",
                 "this robot does not know the command");
 }

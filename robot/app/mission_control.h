@@ -28,7 +28,8 @@ class MissionControl {
     Arm& arm;
     ArmController& arm_controller;
     Arena& arena;
-    std::function<Pose2()> pose;  ///< newest X_map_base
+    std::function<Pose2()> pose;                 ///< newest X_map_base
+    std::function<void(bool on)> set_recording;  ///< empty: this robot cannot record
   };
   explicit MissionControl(Parts parts) : parts_(parts) {}
 

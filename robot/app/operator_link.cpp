@@ -1,8 +1,6 @@
 #include "robot/app/operator_link.h"
 
-#include <algorithm>
 #include <cmath>
-#include <deque>
 #include <map>
 #include <mutex>
 #include <utility>
@@ -12,12 +10,12 @@
 #include "common/geom/frames.h"
 #include "common/transport/monotonic.h"
 #include "common/transport/robot_end.h"
-#include "common/transport/stop_lane.h"
 #include "common/wire/command.h"
 #include "common/wire/fsm.h"
 #include "common/wire/sensor.h"
 #include "common/wire/telemetry.h"
 #include "common/wire/world.h"
+#include "robot/app/stop_receiver.h"
 
 namespace kiln {
 namespace {
@@ -25,8 +23,6 @@ namespace {
 constexpr double kHeartbeatPeriod_s = 0.2;
 constexpr double kUnusableRtt_s = 1e3;  // what a peer that reports nonsense is taken for
 constexpr std::size_t kMaxPeers = 32;
-constexpr std::size_t kMaxStopEvents = 64;
-constexpr std::size_t kRememberedStops = 64;
 
 double saneDuration(double seconds) {
   return std::isfinite(seconds) && seconds >= 0.0 ? seconds : kUnusableRtt_s;
@@ -37,14 +33,6 @@ struct Peer {
   Monotonic::time_point heard;
   Monotonic::time_point heartbeat_sent;
   std::uint64_t heartbeats = 0;
-};
-
-/// A STOP that was obeyed: its repetitions are answered, not obeyed again after somebody has
-/// cleared the latch.
-struct HandledStop {
-  std::string client_id;
-  std::uint64_t nonce = 0;
-  Stamp latched;
 };
 
 }  // namespace
@@ -61,11 +49,10 @@ void OperatorLink::Config::visit(ConfigArchive& a) {
 }
 
 struct OperatorLink::Impl {
-  Impl(Config c, Identity i, const Clock& robot_clock, StopLatch& stop)
+  Impl(Config c, Identity i, const Clock& robot_clock)
       : config(std::move(c)),
         identity(std::move(i)),
         clock(robot_clock),
-        latch(stop),
         commands(static_cast<std::size_t>(config.command_queue), DropPolicy::Newest) {}
 
   // link thread
@@ -76,8 +63,6 @@ struct OperatorLink::Impl {
   void onTick();
   [[nodiscard]] std::string objection(const std::string& from, const Hello& hello) const;
   [[nodiscard]] bool heard(const std::string& from, Stamp now, OperatorPeer* seen);
-  // stop thread
-  [[nodiscard]] std::string onStop(std::string_view bytes);
 
   void reply(const std::string& to, const ToStation& message) {
     end->send(to, wire::encode(message));
@@ -86,28 +71,24 @@ struct OperatorLink::Impl {
   Config config;
   Identity identity;  // mission_uuid guarded by mutex
   const Clock& clock;
-  StopLatch& latch;
   BoundedQueue<ReceivedCommand> commands;
-  BoundedQueue<StopEvent> stops{kMaxStopEvents, DropPolicy::Oldest};
-  std::deque<HandledStop> handled_stops;  // stop thread only
   mutable std::mutex mutex;
   std::map<std::string, Peer> peers;  // guarded by mutex
   std::unique_ptr<RobotEnd> end;      // after everything its thread uses
-  std::unique_ptr<StopServer> stop_server;
+  std::unique_ptr<StopReceiver> stop_receiver;
 };
 
 Result<std::unique_ptr<OperatorLink>> OperatorLink::open(Config config, Identity identity,
                                                          const Clock& clock, StopLatch& stop) {
   const auto addresses = parseEndpoint(config.endpoint);
   if (!addresses) return tl::make_unexpected(addresses.error());
-  auto impl = std::make_unique<Impl>(std::move(config), std::move(identity), clock, stop);
+  auto impl = std::make_unique<Impl>(std::move(config), std::move(identity), clock);
   auto end = RobotEnd::bind(*addresses, clock);
   if (!end) return tl::make_unexpected(end.error());
   impl->end = std::move(*end);
-  auto server = StopServer::bind(
-      addresses->stop, [raw = impl.get()](std::string_view bytes) { return raw->onStop(bytes); });
-  if (!server) return tl::make_unexpected(server.error());
-  impl->stop_server = std::move(*server);
+  auto receiver = StopReceiver::bind(addresses->stop, clock, stop);
+  if (!receiver) return tl::make_unexpected(receiver.error());
+  impl->stop_receiver = std::move(*receiver);
   impl->end->start({[raw = impl.get()](const std::string& from, std::string_view bytes) {
                       raw->onMessage(from, bytes);
                     },
@@ -277,38 +258,11 @@ void OperatorLink::Impl::onTick() {
   }
 }
 
-// --- stop thread
-// -----------------------------------------------------------------------------------------------------
-
-std::string OperatorLink::Impl::onStop(std::string_view bytes) {
-  const auto request = wire::decodeStopRequest(bytes);
-  if (!request) {
-    // Whatever arrives on this lane means stop.
-    latch.set("unreadable request on the STOP lane", clock.now());
-    stops.push({"", "unreadable request", clock.now()});
-    return {};
-  }
-  auto known = std::find_if(handled_stops.begin(), handled_stops.end(), [&](const HandledStop& h) {
-    return h.client_id == request->client_id && h.nonce == request->nonce;
-  });
-  if (known == handled_stops.end()) {
-    latch.set(fmt::format("operator {}", request->operator_name), clock.now());
-    const Stamp latched = clock.now();
-    stops.push({request->client_id, request->operator_name, latched});
-    handled_stops.push_back({request->client_id, request->nonce, latched});
-    if (handled_stops.size() > kRememberedStops) handled_stops.pop_front();
-    known = std::prev(handled_stops.end());
-    logger("link")->warn("STOP by {}", request->operator_name);
-  }
-  return wire::encode(
-      StopAck{request->nonce, request->sent_station_ns, toNanoseconds(known->latched), true});
-}
-
 // --- any thread
 // ------------------------------------------------------------------------------------------------------
 
 std::vector<ReceivedCommand> OperatorLink::takeCommands() { return impl_->commands.drain(); }
-std::vector<StopEvent> OperatorLink::takeStops() { return impl_->stops.drain(); }
+std::vector<StopEvent> OperatorLink::takeStops() { return impl_->stop_receiver->takeStops(); }
 void OperatorLink::acknowledge(const CommandAck& ack) { impl_->reply(ack.client_id, ack); }
 
 std::vector<OperatorPeer> OperatorLink::operators() const {

@@ -22,6 +22,7 @@ using std::chrono::seconds;
 
 constexpr int kStops = 100;
 constexpr int kLosses = 5;
+constexpr Duration kKeysLimit = seconds(180);  // each press waits for two statuses
 constexpr Duration kSample = std::chrono::milliseconds(1);
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
@@ -176,6 +177,22 @@ Result<LossTimes> timeLosses(const WatchedRobot& watched, ScriptedOperator& pers
   return times;
 }
 
+/// Clears whatever is latched and leaves the robot in Teleop with the lease free.
+Result<void> readyForHands(ScriptedOperator& person) {
+  if (auto freed =
+          person.waitFor("the lease to be free", seconds(10),
+                         [](const auto& v) { return v.status->lease.holder_client.empty(); });
+      !freed) {
+    return freed;
+  }
+  if (person.view().status->stop.latched) {
+    if (auto lease = person.command(AcquireLease{}); !lease) return lease;
+    if (auto cleared = person.command(ClearStop{}); !cleared) return cleared;
+  }
+  if (auto over = person.takeOver(); !over) return over;
+  return person.command(ReleaseLease{});
+}
+
 /// Key to latch in the station's own window, on a display of its own, with everything else drawn as
 /// usual.
 Result<std::vector<double>> timeKeyPresses(const WatchedRobot& watched) {
@@ -185,9 +202,10 @@ Result<std::vector<double>> timeKeyPresses(const WatchedRobot& watched) {
        "--connect", watched.endpoint(), "--measure-stop", std::to_string(kStops)},
       log);
   if (!station) return tl::make_unexpected(station.error());
-  if (station->wait(seconds(60)) != 0) {
-    return makeError(ErrorCode::Timeout, "kiln-station did not time its STOP key: {}",
-                     tailOf(log, 4));
+  const auto code = station->wait(kKeysLimit);
+  if (code != 0) {
+    return makeError(ErrorCode::Timeout, "kiln-station did not time its STOP key ({}): {}",
+                     code ? fmt::format("exit status {}", *code) : "still running", tailOf(log, 4));
   }
   std::ifstream in(log);
   for (std::string line; std::getline(in, line);) {
@@ -208,12 +226,13 @@ Result<EvaluationResult> evaluateStop(const SweepOptions&) {
   if (!person) return tl::make_unexpected(person.error());
   auto latched = timeStops(**person);
   if (!latched) return tl::make_unexpected(latched.error());
-  if (auto over = (*person)->takeOver(); !over) return tl::make_unexpected(over.error());
   if (auto released = (*person)->command(ReleaseLease{}); !released)
     return tl::make_unexpected(released.error());
   const auto timed_keys = timeKeyPresses(**watched);
   if (!timed_keys)
     fmt::print(stderr, "key to latch not measured: {}\n", timed_keys.error().message);
+  // A station that gave up may have left the robot stopped and its lease unexpired.
+  if (auto ready = readyForHands(**person); !ready) return tl::make_unexpected(ready.error());
   const std::vector<double> keys = timed_keys.value_or(std::vector<double>{});
   auto losses = timeLosses(**watched, **person);
   if (!losses) return tl::make_unexpected(losses.error());

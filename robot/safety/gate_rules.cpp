@@ -68,6 +68,7 @@ struct SituationRule {
   GateDecision operator()(const SetSpeedScale&) const { return {}; }
   GateDecision operator()(const CancelMacro&) const { return {}; }
   GateDecision operator()(const AcknowledgeAlarm&) const { return {}; }
+  GateDecision operator()(const SetRecording&) const { return {}; }
   GateDecision operator()(const JogBase&) const { return byHand("jog"); }
   GateDecision operator()(const JogArm&) const {
     auto decision = byHand("jog");
@@ -110,7 +111,8 @@ GateDecision refuse(std::string code, std::string reason) {
 bool needsLease(const CommandBody& body) {
   return !std::holds_alternative<AcquireLease>(body) &&
          !std::holds_alternative<ReleaseLease>(body) &&
-         !std::holds_alternative<AcknowledgeAlarm>(body);
+         !std::holds_alternative<AcknowledgeAlarm>(body) &&
+         !std::holds_alternative<SetRecording>(body);
 }
 
 GateDecision checkSituation(const CommandBody& body, const GateSituation& situation) {

@@ -25,6 +25,7 @@ void FirePlaceConfig::visit(ConfigArchive& a) {
 void ArenaMap::visit(ConfigArchive& a) {
   a.field("name", name, "for the operator");
   a.section("start", start, "nominal start pose");
+  a.section("approach", approach, "ramp and edge before the building");
   a.list("walls", walls, "fixed structure");
   a.list("furniture", furniture, "roughly known boxes");
   a.section("doorway", doorway, "middle of the entrance, X into the building");

@@ -6,6 +6,7 @@
 #include "common/config/config_archive.h"
 #include "common/geom/pose.h"
 #include "common/robot_model/robot_geometry.h"
+#include "robot/scene/ground_profile.h"
 
 namespace kiln {
 
@@ -35,6 +36,7 @@ struct FirePlaceConfig {
 struct ArenaMap {
   std::string name = "kitchen";
   GroundPoseConfig start;                    ///< nominal start pose
+  ApproachConfig approach;                   ///< ramp and edge as surveyed; all zero: flat
   std::vector<BoxConfig> walls;              ///< fixed structure: exact up to 2 mm in the world
   std::vector<BoxConfig> furniture;          ///< known only roughly (+-15 cm)
   GroundPoseConfig doorway;                  ///< middle of the entrance, X into the building

@@ -39,7 +39,7 @@ void BaseDevice::reset() {
   commanded_ = false;
   watchdog_stop_ = true;
   command_ = {};
-  steer_ref_ = drive_ref_ = integral_ = {};
+  steer_ref_ = drive_ref_ = integral_ = drive_torque_nm_ = {};
 }
 
 void BaseDevice::followCommand(Stamp now, double step_s) {
@@ -55,7 +55,7 @@ void BaseDevice::followCommand(Stamp now, double step_s) {
   const double turn = robot_.steer_rate_deg_s * kDeg * step_s;
   for (std::size_t i = 0; i < 4; ++i) {
     steer_ref_[i] += std::clamp(command_[i].steer_rad - steer_ref_[i], -turn, turn);
-    drive_ref_[i] = command_[i].drive_radps;
+    drive_ref_[i] = runaway_[0] * command_[i].drive_radps + runaway_[1] / robot_.wheel_radius_m;
   }
 }
 
@@ -81,6 +81,7 @@ void BaseDevice::control(Stamp now, double step_s, Physics& physics) {
         std::clamp(integral_[i] + config_.drive_integral_gain * slip * step_s, -limit, limit);
     const double drive_torque = std::clamp(config_.drive_gain * slip + integral_[i], -limit, limit);
     physics.setDriveTorque(i, drive_torque);
+    drive_torque_nm_[i] = drive_torque;
     power_w_ += std::fabs(drive_torque * drive.velocity) + std::fabs(steer_torque * steer.velocity);
   }
 }
@@ -94,6 +95,7 @@ BaseState BaseDevice::report(Stamp now, const Physics& physics) const {
     state.wheels[i].steer_rad = physics.steer(i).position - truth_.steer_offset_rad[i];
     state.wheels[i].drive_radps = drive.velocity * scale;
     state.wheels[i].drive_angle_rad = drive.position * scale;
+    state.wheels[i].drive_current_a = drive_torque_nm_[i] / config_.torque_constant_nm_per_a;
   }
   state.battery_a = config_.idle_a + power_w_ / config_.battery_v;
   state.battery_v = config_.battery_v - config_.battery_ohm * state.battery_a;

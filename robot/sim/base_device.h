@@ -17,6 +17,8 @@ class BaseDevice {
   /// @return empty, or why the command was refused (then the watchdog keeps counting).
   std::string write(Stamp now, const WheelCommands& command);
   void reset();
+  /// A motor controller gone wrong: it drives factor x commanded + offset. 1, 0: healthy.
+  void setRunaway(double factor, double offset_mps) { runaway_ = {factor, offset_mps}; }
   void control(Stamp now, double step_s, Physics& physics);
   [[nodiscard]] BaseState report(Stamp now, const Physics& physics) const;
   [[nodiscard]] bool stoppedByWatchdog() const { return watchdog_stop_; }
@@ -28,7 +30,8 @@ class BaseDevice {
   RobotGeometry robot_;
   TrueRobot truth_;
   WheelCommands command_{};
-  std::array<double, 4> steer_ref_{}, drive_ref_{}, integral_{};
+  std::array<double, 4> steer_ref_{}, drive_ref_{}, integral_{}, drive_torque_nm_{};
+  std::array<double, 2> runaway_{1.0, 0.0};
   double power_w_ = 0.0;
   Stamp command_time_;
   bool commanded_ = false;

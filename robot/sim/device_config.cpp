@@ -9,6 +9,7 @@ void BaseDeviceConfig::visit(ConfigArchive& a) {
   a.field("wheel_kg", wheel_kg, "kg", 0.1, 50, "each");
   a.field("wheel_width_m", wheel_width_m, "m", 0.01, 0.2, "tread");
   a.field("drive_torque_nm", drive_torque_nm, "Nm", 0.1, 500, "hub motor peak");
+  a.field("torque_constant_nm_per_a", torque_constant_nm_per_a, "Nm/A", 0.01, 10, "hub motor");
   a.field("drive_gain", drive_gain, "Nm s/rad", 0, 1e3, "velocity loop");
   a.field("drive_integral_gain", drive_integral_gain, "Nm/rad", 0, 1e4, "velocity loop");
   a.field("rotor_inertia_kgm2", rotor_inertia_kgm2, "kg m2", 0.001, 10,
@@ -113,6 +114,8 @@ void PerturbationConfig::visit(ConfigArchive& a) {
   a.field("plate_off_centre_m", plate_off_centre_m, "m", 0, 0.1, "plates, +- in the plane");
   a.field("extrinsic_m", extrinsic_m, "m", 0, 0.1, "sensor and nozzle mounts, sigma an axis");
   a.field("extrinsic_deg", extrinsic_deg, "deg", 0, 10, "sensor and nozzle mounts, sigma an axis");
+  a.field("slope_deg", slope_deg, "deg", 0, 5, "ramp before the door, +-");
+  a.field("edge_m", edge_m, "m", 0, 0.02, "edge before the door, +- in height");
 }
 
 void FireConfig::visit(ConfigArchive& a) {

@@ -88,6 +88,7 @@ void toProto(const WorldReport& report, v1::device::Report& m) {
     out->set_steer_rad(wheel.steer_rad);
     out->set_drive_radps(wheel.drive_radps);
     out->set_drive_angle_rad(wheel.drive_angle_rad);
+    out->set_drive_current_a(wheel.drive_current_a);
   }
   m.mutable_base()->set_battery_v(report.base.battery_v);
   m.mutable_base()->set_battery_a(report.base.battery_a);

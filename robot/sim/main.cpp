@@ -5,6 +5,7 @@
 
 #include "common/config/resources.h"
 #include "common/core/log.h"
+#include "robot/sim/fault_catalog.h"
 #include "robot/sim/world_server.h"
 
 namespace {
@@ -36,7 +37,9 @@ void addOptions(CLI::App& app, Options& o) {
   app.add_option("--truth", o.server.truth_path,
                  "Write what truly happened here (JSON) at the end");
   app.add_option("--truth-trace", o.server.trace_path, "Write true poses here (JSON lines, 10 Hz)");
-  app.add_option("--fault", o.faults, "NAME@SECONDS[:SECONDS]; may be repeated");
+  app.add_option("--fault", o.faults,
+                 "NAME[=NUMBER,...]@SECONDS[:SECONDS], begin and duration; may be repeated");
+  app.footer(kiln::sim::faultHelp());
 }
 
 kiln::Result<kiln::sim::WorldConfig> loadWorld(const Options& o) {

@@ -79,8 +79,12 @@ void writeOptions(Writer& w, const WorldConfig& config) {
 }
 
 void writeArena(Writer& w, const TrueArena& arena) {
-  w.line(R"(<geom name="floor" type="plane" size="100 100 1" {}/>)", kArenaBits);
+  w.line(R"(<geom name="floor" type="plane" size="100 100 1" pos="0 0 {:.9g}" {}/>)",
+         arena.ground.lowest(), kArenaBits);
   int index = 0;
+  for (const SolidBox& b : arena.ground_boxes) {  // the first one is that plane
+    if (&b != &arena.ground_boxes.front()) w.box(b.name, b.X_map_box, b.size_m, kArenaBits, 0.0);
+  }
   const auto add = [&](const SolidBox& b) {
     if (b.solid)
       w.box(fmt::format("{} #{}", b.name, index++), b.X_map_box, b.size_m, kArenaBits, 0.0);
@@ -95,6 +99,10 @@ void writeArena(Writer& w, const TrueArena& arena) {
       names::kObstacle, index, kArenaBits);
 }
 
+/// A wheel is a cylinder for its inertia and touches the ground with the two rims of its tread, as
+/// spheres: MuJoCo 2.2 finds one shaky contact between cylinder and box, but exact ones between
+/// sphere and box, and the wheel rolls on both in the same way (decision 0012). The spheres stay
+/// inside the chassis' footprint.
 void writeWheels(Writer& w, const WorldConfig& config, const RobotGeometry& robot) {
   const BaseDeviceConfig& c = config.base;
   for (int i = 0; i < 4; ++i) {
@@ -107,9 +115,15 @@ void writeWheels(Writer& w, const WorldConfig& config, const RobotGeometry& robo
     w.line(R"(<inertial pos="0 0 0.1" mass="1" diaginertia="0.005 0.005 0.005"/>)");
     w.line(R"(<body name="{}"><joint name="{}" axis="0 1 0" armature="{:.4g}" damping="0.02"/>)",
            names::kWheel[i], names::kDrive[i], c.rotor_inertia_kgm2);
-    w.line(
-        R"(<geom name="{}" type="cylinder" size="{:.6g} {:.6g}" euler="1.5707963267948966 0 0" mass="{:.6g}" {}/>)",
-        names::kWheel[i], robot.wheel_radius_m, 0.5 * c.wheel_width_m, c.wheel_kg, kWheelBits);
+    const double r2 = robot.wheel_radius_m * robot.wheel_radius_m, axial = 0.5 * c.wheel_kg * r2,
+                 across = c.wheel_kg * (3 * r2 + c.wheel_width_m * c.wheel_width_m) / 12;
+    w.line(R"(<inertial pos="0 0 0" mass="{:.6g}" diaginertia="{:.6g} {:.6g} {:.6g}"/>)",
+           c.wheel_kg, across, axial, across);
+    for (const double side : {-0.5, 0.5}) {
+      w.line(R"(<geom name="{}{}" type="sphere" size="{:.6g}" pos="0 {:.6g} 0" {}/>)",
+             names::kWheel[i], side < 0 ? "" : " #2", robot.wheel_radius_m, side * c.wheel_width_m,
+             kWheelBits);
+    }
     w.line("</body></body>");
   }
 }

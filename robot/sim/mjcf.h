@@ -19,7 +19,7 @@ inline constexpr const char* kJoint[6] = {"shoulder_pan", "shoulder_lift", "elbo
                                           "wrist_1",      "wrist_2",       "wrist_3"};
 }  // namespace names
 
-/// The MuJoCo model (MJCF) of one drawn world: flat floor, arena boxes, robot with four steered hub
+/// The MuJoCo model (MJCF) of one drawn world: ground, arena boxes, robot with four steered hub
 /// wheels and a UR10e. Link masses, centres of mass and inertias are the vendor's. The robot's
 /// bodies collide as boxes and as capsules along the nominal links; only the wheels are meant to
 /// touch anything.

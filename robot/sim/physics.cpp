@@ -1,5 +1,6 @@
 #include "robot/sim/physics.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -59,10 +60,10 @@ std::vector<GeomInfo> describeGeoms(const mjModel* m) {
     info.name = name == nullptr ? "?" : name;
     info.robot = m->geom_contype[g] != 1;
     info.wheel = m->geom_contype[g] == 4;
-    info.floor = m->geom_type[g] == mjGEOM_PLANE;
+    info.floor = info.name.starts_with("floor");
     info.arm = info.robot && (info.name.starts_with("arm") || info.name.starts_with("head") ||
                               info.name.starts_with("hose"));
-    if (!info.robot) info.name = info.name.substr(0, info.name.find(" #"));
+    if (!info.robot || info.wheel) info.name = info.name.substr(0, info.name.find(" #"));
   }
   return out;
 }
@@ -74,7 +75,7 @@ struct Physics::Impl {
   mjData* d = nullptr;
   std::vector<GeomInfo> geoms;
   int base_body = 0, flange_body = 0, obstacle_mocap = 0;
-  int base_qpos = 0;
+  int base_qpos = 0, base_qvel = 0;
   std::array<int, 4> steer_joint{}, drive_joint{};
   std::array<int, 6> arm_joint{};
   std::array<int, 4> steer_motor{}, drive_motor{};
@@ -87,6 +88,7 @@ struct Physics::Impl {
     if (m != nullptr) mj_deleteModel(m);
   }
   void resolveNames();
+  void placeBase(const Eigen::Isometry3d& X_map_base);
   void collectContacts();
   [[nodiscard]] JointState joint(int id) const {
     return {d->qpos[m->jnt_qposadr[id]], d->qvel[m->jnt_dofadr[id]]};
@@ -99,6 +101,7 @@ void Physics::Impl::resolveNames() {
   flange_body = mj_name2id(m, mjOBJ_BODY, names::kFlange);
   obstacle_mocap = m->body_mocapid[mj_name2id(m, mjOBJ_BODY, names::kObstacle)];
   base_qpos = m->jnt_qposadr[m->body_jntadr[base_body]];
+  base_qvel = m->jnt_dofadr[m->body_jntadr[base_body]];
   for (std::size_t i = 0; i < 4; ++i) {
     steer_joint[i] = mj_name2id(m, mjOBJ_JOINT, names::kSteer[i]);
     drive_joint[i] = mj_name2id(m, mjOBJ_JOINT, names::kDrive[i]);
@@ -181,7 +184,16 @@ void Physics::step() {
       impl_->d);  // positions, velocities and inertia for the devices and sensors of this instant
 }
 
-void Physics::carryTo(const Pose2& X, const Vector6d& q) {
+/// Half a millimetre above the ground, so that no contact begins deep inside it.
+void Physics::Impl::placeBase(const Eigen::Isometry3d& X) {
+  const Eigen::Vector3d p = X * Eigen::Vector3d(0, 0, 0.0005);
+  const Eigen::Quaterniond r(X.linear());
+  mjtNum* base = d->qpos + base_qpos;
+  const double pose[7] = {p.x(), p.y(), p.z(), r.w(), r.x(), r.y(), r.z()};
+  std::copy(pose, pose + 7, base);
+}
+
+void Physics::carryTo(const Eigen::Isometry3d& X, const Vector6d& q) {
   mjModel* m = impl_->m;
   mjData* d = impl_->d;
   const double obstacle_z = d->mocap_pos[3 * impl_->obstacle_mocap + 2];
@@ -191,17 +203,32 @@ void Physics::carryTo(const Pose2& X, const Vector6d& q) {
   mj_resetData(m, d);
   d->time = time;
   placeObstacle(obstacle);
-  mjtNum* base = d->qpos + impl_->base_qpos;
-  base[0] = X.x_m;
-  base[1] = X.y_m;
-  base[2] = 0.0005;
-  base[3] = std::cos(0.5 * X.yaw_rad);
-  base[4] = base[5] = 0.0;
-  base[6] = std::sin(0.5 * X.yaw_rad);
+  impl_->placeBase(X);
   for (std::size_t i = 0; i < 6; ++i)
     d->qpos[m->jnt_qposadr[impl_->arm_joint[i]]] = q[static_cast<Eigen::Index>(i)];
   impl_->contacts.clear();
   mj_step1(m, d);
+}
+
+void Physics::displace(const Eigen::Isometry3d& X) {
+  mjtNum* v = impl_->d->qvel + impl_->base_qvel;  // linear in map, angular in base
+  const Eigen::Vector3d turned =
+      X.linear() * (X_map_base().linear().transpose() * Eigen::Vector3d(v[0], v[1], v[2]));
+  std::copy(turned.data(), turned.data() + 3, v);
+  impl_->placeBase(X);
+  impl_->contacts.clear();
+  mj_step1(impl_->m, impl_->d);
+}
+
+void Physics::moveBox(const std::string& name, const Eigen::Isometry3d& X) {
+  for (std::size_t g = 0; g < impl_->geoms.size(); ++g) {
+    if (impl_->geoms[g].robot || impl_->geoms[g].name != name) continue;
+    const Eigen::Quaterniond q(X.linear());
+    const double quat[4] = {q.w(), q.x(), q.y(), q.z()};
+    std::copy(X.translation().data(), X.translation().data() + 3, impl_->m->geom_pos + 3 * g);
+    std::copy(quat, quat + 4, impl_->m->geom_quat + 4 * g);
+    return;
+  }
 }
 
 void Physics::placeObstacle(const Eigen::Vector3d& p) {

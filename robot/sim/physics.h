@@ -37,7 +37,11 @@ class Physics {
 
   void step();
   /// Puts the robot at rest there. The rest of the world stays as it is.
-  void carryTo(const Pose2& X_map_base, const Vector6d& q);
+  void carryTo(const Eigen::Isometry3d& X_map_base, const Vector6d& q);
+  /// Puts the robot there as it is: joints, wheels and its velocities (in base) stay.
+  void displace(const Eigen::Isometry3d& X_map_base);
+  /// The arena's first box of that name.
+  void moveBox(const std::string& name, const Eigen::Isometry3d& X_map_box);
   void placeObstacle(const Eigen::Vector3d& p_map);
 
   void setSteerTorque(std::size_t wheel, double torque_nm);

@@ -11,6 +11,9 @@ constexpr double kDropRadius =
     0.009;  // drawn larger than the true 4 mm, else a drop is no pixel wide
 constexpr double kObstacleSize = 0.2;  // as in the physics model
 constexpr int kFlameStrips = 5;
+constexpr double kPersonHeight = 1.75, kPersonRadius = 0.22;
+constexpr double kClothes_c = 30.0;
+constexpr double kBoardDistance = 0.5;  // beyond the LiDAR's least range
 
 std::uint32_t number(Material m) { return static_cast<std::uint32_t>(m); }
 
@@ -32,7 +35,7 @@ std::uint32_t arenaMask(Material m) {
 
 RayScene::RayScene(const WorldConfig& config, const TrueArena& arena, const RobotGeometry& robot,
                    bool with_drops)
-    : robot_(robot), fire_(config.fire) {
+    : robot_(robot), fire_(config.fire), X_flange_lidar_(arena.robot.X_flange_lidar) {
   addArena(arena);
   for (const TrueFirePlace& place : arena.fire_places) addFirePlace(place);
   addRobot(arena);
@@ -40,6 +43,7 @@ RayScene::RayScene(const WorldConfig& config, const TrueArena& arena, const Robo
     drops_.push_back(note(rays_.addSphere(kDropRadius, {0, 0, -5}, number(Material::Water), 0),
                           fire_.ambient_c));
   }
+  addDisturbances(config);
   obstacle_ = note(rays_.addBox(Eigen::Vector3d::Constant(kObstacleSize),
                                 Eigen::Isometry3d::Identity(), number(Material::Obstacle), 0),
                    fire_.ambient_c);
@@ -53,12 +57,14 @@ Raycaster::Id RayScene::note(Raycaster::Id id, double temperature_c) {
 }
 
 void RayScene::addArena(const TrueArena& arena) {
-  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
-  X.translation().z() = -0.5;
-  note(rays_.addBox({200, 200, 1}, X, number(Material::Floor), mask::kSolid), fire_.ambient_c);
+  const auto add = [this](const SolidBox& b) {
+    return note(rays_.addBox(b.size_m, b.X_map_box, number(b.material), arenaMask(b.material)),
+                b.temperature_c);
+  };
+  for (const SolidBox& b : arena.ground_boxes) add(b);
   for (const SolidBox& b : arena.boxes) {
-    note(rays_.addBox(b.size_m, b.X_map_box, number(b.material), arenaMask(b.material)),
-         b.temperature_c);
+    boxes_.push_back(add(b));
+    X_map_boxes_.push_back(b.X_map_box);
   }
 }
 
@@ -183,9 +189,68 @@ void RayScene::updateFire(const SceneState& state) {
     temperature_c_[id] = fire_.ambient_c + reflection_ratio_ * (state.plate_c - fire_.ambient_c);
 }
 
+/// Only what the script needs: hidden shapes cost time too.
+void RayScene::addDisturbances(const WorldConfig& config) {
+  const auto scripted = [&](const char* fault) {
+    return std::any_of(config.faults.begin(), config.faults.end(),
+                       [&](const FaultConfig& f) { return f.name == fault; });
+  };
+  const auto person = number(Material::Person);
+  for (std::size_t i = 0; i < kMaxPeople && scripted("people"); ++i) {
+    people_.push_back({note(rays_.addCylinder(kPersonRadius, kPersonHeight - 2 * kPersonRadius,
+                                              Eigen::Isometry3d::Identity(), person, 0),
+                            kClothes_c),
+                       note(rays_.addSphere(kPersonRadius, {0, 0, -5}, person, 0), kClothes_c),
+                       note(rays_.addSphere(kPersonRadius, {0, 0, -5}, person, 0), kClothes_c)});
+  }
+  if (!scripted("view_blocked")) return;
+  for (const double width : {2 * kBoardDistance, kBoardDistance, kBoardDistance}) {
+    boards_.push_back(note(rays_.addBox({0.01, width, 0.5}, Eigen::Isometry3d::Identity(),
+                                        number(Material::Obstacle), 0),
+                           fire_.ambient_c));
+  }
+}
+
+void RayScene::updateDisturbances(const SceneState& state) {
+  if (moved_) rays_.setPose(boxes_[*moved_], X_map_boxes_[*moved_]);
+  moved_.reset();
+  if (state.moved) {
+    moved_ = state.moved->box;
+    rays_.setPose(boxes_[*moved_], state.moved->X_map_box);
+  }
+  const std::size_t shown = std::min(people_.size(), state.people.size());
+  for (std::size_t i = 0; i < std::max(shown, people_shown_); ++i) {
+    const Person& person = people_[i];
+    for (const Raycaster::Id id : {person.body, person.hip, person.head})
+      rays_.setMask(id, i < shown ? mask::kSolid : 0);
+    if (i >= shown) continue;
+    const auto at = [&](double z) {
+      return Eigen::Isometry3d(Eigen::Translation3d(state.people[i] + Eigen::Vector3d(0, 0, z)));
+    };
+    rays_.setPose(person.body, at(0.5 * kPersonHeight));
+    rays_.setPose(person.hip, at(kPersonRadius));
+    rays_.setPose(person.head, at(kPersonHeight - kPersonRadius));
+  }
+  people_shown_ = shown;
+  if (boards_.empty() || (!state.board_azimuth_rad && !boards_shown_)) return;
+  boards_shown_ = state.board_azimuth_rad.has_value();
+  for (const Raycaster::Id id : boards_) rays_.setMask(id, boards_shown_ ? mask::kBoard : 0);
+  if (!boards_shown_) return;
+  // Three sides of a rectangle open to the rear: half a turn.
+  const Eigen::Isometry3d X = state.X_map_base * robot_.X_base_flange(state.q) * X_flange_lidar_ *
+                              Eigen::AngleAxisd(*state.board_azimuth_rad, Eigen::Vector3d::UnitZ());
+  rays_.setPose(boards_[0], X * Eigen::Translation3d(kBoardDistance, 0, 0));
+  for (const double side : {1.0, -1.0}) {
+    rays_.setPose(boards_[side > 0 ? 1 : 2],
+                  X * Eigen::Translation3d(0.5 * kBoardDistance, side * kBoardDistance, 0) *
+                      Eigen::AngleAxisd(0.5 * M_PI, Eigen::Vector3d::UnitZ()));
+  }
+}
+
 void RayScene::update(const SceneState& state) {
   updateRobot(state);
   updateFire(state);
+  updateDisturbances(state);
   const std::size_t shown = std::min(drops_.size(), state.drops.size());
   for (std::size_t i = 0; i < std::max(shown, drops_shown_); ++i) {
     rays_.setMask(drops_[i], i < shown ? mask::kLightOnly : 0);

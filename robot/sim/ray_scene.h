@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "robot/scene/raycaster.h"
@@ -21,7 +22,8 @@ inline constexpr std::uint32_t kSilk =
 inline constexpr std::uint32_t kLightOnly = 32;      ///< water drops
 inline constexpr std::uint32_t kGripper = 64;        ///< the thermal camera looks out of it
 inline constexpr std::uint32_t kLidarHousing = 128;  ///< the LiDAR turns inside it
-inline constexpr std::uint32_t kLidar = kSolid | kRobot | kSilk | kGripper;
+inline constexpr std::uint32_t kBoard = 256;         ///< boards before the LiDAR alone
+inline constexpr std::uint32_t kLidar = kSolid | kRobot | kSilk | kGripper | kBoard;
 inline constexpr std::uint32_t kThermal =
     kSolid | kRobot | kAcrylic | kWarmPatch | kSilk | kLidarHousing;
 inline constexpr std::uint32_t kColour =
@@ -61,6 +63,8 @@ class RayScene {
   void addWheels();
   void updateFire(const SceneState& state);
   void updateRobot(const SceneState& state);
+  void addDisturbances(const WorldConfig& config);
+  void updateDisturbances(const SceneState& state);
 
   Raycaster rays_;
   RobotGeometry robot_;
@@ -75,6 +79,17 @@ class RayScene {
   std::vector<Raycaster::Id> burning_plate_, reflection_;
   std::vector<Raycaster::Id> drops_;
   std::size_t drops_shown_ = 0;
+  Eigen::Isometry3d X_flange_lidar_ = Eigen::Isometry3d::Identity();
+  std::vector<Raycaster::Id> boxes_;  ///< as TrueArena::boxes
+  std::vector<Eigen::Isometry3d> X_map_boxes_;
+  std::optional<std::size_t> moved_;  ///< of boxes_
+  struct Person {
+    Raycaster::Id body, hip, head;
+  };
+  std::vector<Person> people_;
+  std::size_t people_shown_ = 0;
+  std::vector<Raycaster::Id> boards_;
+  bool boards_shown_ = false;
   bool obstacle_shown_ = false;
   Raycaster::Id obstacle_ = 0;
 };

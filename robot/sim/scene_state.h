@@ -9,6 +9,13 @@
 
 namespace kiln::sim {
 
+inline constexpr std::size_t kMaxPeople = 8;
+
+struct MovedBox {
+  std::size_t box = 0;  ///< index in TrueArena::boxes
+  Eigen::Isometry3d X_map_box = Eigen::Isometry3d::Identity();
+};
+
 /// Everything a sensor needs to know of one instant: copied once, then read by any thread.
 struct SceneState {
   Stamp stamp;
@@ -18,6 +25,9 @@ struct SceneState {
   double plate_c = 25.0;                    ///< of the burning place
   std::vector<Eigen::Vector3d> drops;       ///< water in flight, map
   std::optional<Eigen::Vector3d> obstacle;  ///< scripted box before the arm
+  std::optional<MovedBox> moved;
+  std::vector<Eigen::Vector3d> people;      ///< their feet, map
+  std::optional<double> board_azimuth_rad;  ///< boards about that azimuth of the LiDAR
 };
 
 }  // namespace kiln::sim

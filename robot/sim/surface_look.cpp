@@ -75,6 +75,8 @@ SurfaceLook surfaceLook(Material material, const Eigen::Vector3f& p, const Eigen
               true};
     case Material::WarmBody:
       return {Colour(70, 98, 150), false};
+    case Material::Person:
+      return {p.z() > 0.9F ? Colour(178, 74, 60) : Colour(52, 60, 84), false};
     case Material::Chassis:
       return {normal.z() > 0.5F ? Colour(78, 82, 88) : Colour(58, 62, 68), false};
     case Material::Tank:

@@ -1,8 +1,11 @@
 #include "robot/sim/true_arena.h"
 
 #include <cmath>
+#include <optional>
 
+#include "robot/sim/fault_catalog.h"
 #include "robot/sim/random.h"
+#include "robot/sim/true_ground.h"
 
 namespace kiln::sim {
 namespace {
@@ -63,8 +66,16 @@ void addFireBox(TrueFirePlace& place, const FireConfig& fire,
   }
 }
 
+/// Any horizontal one.
+Eigen::Vector3d direction(std::uint64_t seed, const std::string& of) {
+  const double angle = Random(seed, "misplaced " + of).uniform(-M_PI, M_PI);
+  return {std::cos(angle), std::sin(angle), 0};
+}
+
+/// @param misplaced_m stands so far from its configured place, instead of within the tolerance.
 TrueFirePlace drawFirePlace(const WorldConfig& config, const ArenaMap& nominal,
-                            const FirePlaceConfig& spot, std::uint64_t seed) {
+                            const FirePlaceConfig& spot, std::optional<double> misplaced_m,
+                            std::uint64_t seed) {
   Random random(seed, "fire place " + spot.name);
   const PerturbationConfig& c = config.perturbation;
   TrueFirePlace place;
@@ -72,8 +83,9 @@ TrueFirePlace drawFirePlace(const WorldConfig& config, const ArenaMap& nominal,
   place.opening_m = nominal.opening_m;
   place.plate_m = nominal.plate_m;
   place.box_m = nominal.box_size_m + random.uniform(-c.size_m, c.size_m);
-  const Eigen::Vector3d shift(random.uniform(-c.fire_box_m, c.fire_box_m),
-                              random.uniform(-c.fire_box_m, c.fire_box_m), 0);
+  Eigen::Vector3d shift(random.uniform(-c.fire_box_m, c.fire_box_m),
+                        random.uniform(-c.fire_box_m, c.fire_box_m), 0);
+  if (misplaced_m) shift = *misplaced_m * direction(seed, spot.name);
   const double yaw = (spot.facing_deg + random.uniform(-c.fire_box_deg, c.fire_box_deg)) * kDeg;
   const double table_h = nominal.table_height_m + random.uniform(-c.size_m, c.size_m);
   Eigen::Vector3d plate = vector3(spot.plate_xyz_m) + shift;
@@ -93,6 +105,17 @@ TrueFirePlace drawFirePlace(const WorldConfig& config, const ArenaMap& nominal,
   table.size_m.z() = table_h;
   place.boxes.push_back(table);
   return place;
+}
+
+std::optional<double> misplacement(const WorldConfig& config, std::size_t place,
+                                   std::size_t burning) {
+  for (const FaultConfig& fault : config.faults) {
+    if (fault.name != "fire_box_misplaced") continue;
+    const double wanted = faultValue(fault, 1);  // 0: the burning one, else counted from 1
+    if (wanted == 0.0 ? place == burning : static_cast<double>(place + 1) == wanted)
+      return faultValue(fault, 0);
+  }
+  return std::nullopt;
 }
 
 TrueRobot drawRobot(const WorldConfig& config, const RobotGeometry& robot, std::uint64_t seed) {
@@ -133,13 +156,15 @@ TrueArena TrueArena::draw(const WorldConfig& config, const ArenaMap& nominal,
                            d.center.pose(), vector3(d.size_m), d.solid,
                            random.uniform(d.min_c, d.max_c)});
   }
-  for (const FirePlaceConfig& spot : nominal.fire_places) {
-    arena.fire_places.push_back(drawFirePlace(config, nominal, spot, seed));
+  if (!nominal.fire_places.empty())
+    arena.burning = Random(seed, "burning").bits() % nominal.fire_places.size();
+  for (std::size_t i = 0; i < nominal.fire_places.size(); ++i) {
+    arena.fire_places.push_back(drawFirePlace(config, nominal, nominal.fire_places[i],
+                                              misplacement(config, i, arena.burning), seed));
+    arena.fire_places.back().burning = i == arena.burning;
   }
-  if (!arena.fire_places.empty()) {
-    arena.burning = Random(seed, "burning").bits() % arena.fire_places.size();
-    arena.fire_places[arena.burning].burning = true;
-  }
+  arena.ground = drawGround(config, nominal, seed);
+  arena.ground_boxes = groundBoxes(arena.ground, config.fire.ambient_c);
   arena.robot = drawRobot(config, robot, seed);
   arena.nominal_start = nominal.start.pose();
   return arena;

@@ -31,7 +31,8 @@ enum class Material : std::uint8_t {
   Hose,
   Wheel,
   Water,
-  Obstacle
+  Obstacle,
+  Person
 };
 
 struct SolidBox {
@@ -65,7 +66,9 @@ struct TrueRobot {
 
 /// The world drawn for one seed: scenario.md section 3. Nothing here is ever sent to the robot.
 struct TrueArena {
-  std::vector<SolidBox> boxes;  ///< walls, furniture, distractors
+  GroundProfile ground;
+  std::vector<SolidBox> ground_boxes;  ///< the same as boxes
+  std::vector<SolidBox> boxes;         ///< walls, furniture, distractors
   std::vector<TrueFirePlace> fire_places;
   std::size_t burning = 0;
   TrueRobot robot;

@@ -38,6 +38,13 @@ Json firePlaces(const Truth& t) {
   return out;
 }
 
+Json groundJson(const GroundProfile& ground) {
+  const ApproachConfig& a = ground.approach();
+  return {{"flat", ground.flat()},  {"start_z_m", ground.lowest()}, {"slope_deg", a.slope_deg},
+          {"foot_x_m", a.foot_x_m}, {"top_x_m", a.top_x_m},         {"edge_x_m", a.edge_x_m},
+          {"edge_m", a.edge_m}};
+}
+
 Json perturbations(const Truth& t) {
   const TrueRobot& r = t.arena.robot;
   Json boxes = Json::array();
@@ -54,6 +61,7 @@ Json perturbations(const Truth& t) {
           {"X_flange_thermal", json(r.X_flange_thermal)},
           {"X_flange_nozzle", json(r.X_flange_nozzle)},
           {"X_base_operatorcamera", json(r.X_base_operatorcamera)},
+          {"ground", groundJson(t.arena.ground)},
           {"boxes", boxes}};
 }
 
@@ -79,6 +87,8 @@ std::string truthJson(const Truth& t) {
     collisions.push_back(
         {{"t_s", toSeconds(c.time)}, {"robot", c.a}, {"other", c.b}, {"force_n", c.force_n}});
   }
+  Json kidnaps = Json::array();
+  for (const Pose2& to : t.kidnaps) kidnaps.push_back(json(to));
   const Json out = {{"seed", t.seed},
                     {"world", t.world},
                     {"simulated_s", toSeconds(t.now)},
@@ -97,20 +107,24 @@ std::string truthJson(const Truth& t) {
                     {"final_q_rad", json(t.q)},
                     {"start", json(t.starts.back())},
                     {"starts", starts},
+                    {"kidnaps", kidnaps},
+                    {"fell_s", t.fell ? Json(toSeconds(*t.fell)) : Json(nullptr)},
                     {"fire_places", firePlaces(t)},
                     {"perturbations", perturbations(t)}};
   return out.dump(2) + "\n";
 }
 
 std::string truthTraceLine(const Truth& t) {
-  const Json out = {{"t", toSeconds(t.now)},
-                    {"base", json(t.X_map_base)},
-                    {"thermal", json(t.X_map_thermal)},
-                    {"nozzle", json(t.X_map_nozzle)},
-                    {"q_rad", json(t.q)},
-                    {"plate_c", t.plate_c},
-                    {"jet", t.jet_on},
-                    {"litres", t.litres_delivered}};
+  Json out = {{"t", toSeconds(t.now)},
+              {"base", json(t.X_map_base)},
+              {"thermal", json(t.X_map_thermal)},
+              {"nozzle", json(t.X_map_nozzle)},
+              {"q_rad", json(t.q)},
+              {"plate_c", t.plate_c},
+              {"jet", t.jet_on},
+              {"litres", t.litres_delivered}};
+  if (!t.people.empty()) out["people"] = Json::array();
+  for (const Eigen::Vector3d& feet : t.people) out["people"].push_back(json(feet));
   return out.dump() + "\n";
 }
 

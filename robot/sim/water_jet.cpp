@@ -8,6 +8,7 @@ namespace kiln::sim {
 namespace {
 constexpr double kGravity = 9.81;
 constexpr double kDeg = M_PI / 180.0;
+constexpr double kLost_m = -1.0;  // z of a drop that the ground should have stopped
 }  // namespace
 
 WaterJet::WaterJet(const WaterConfig& config, const std::vector<TrueFirePlace>& places,
@@ -66,7 +67,7 @@ void WaterJet::step(double step_s, const Raycaster& scene) {
       if (!stopped_before) delivered_l_[place] += config_.drop_ml * 1e-3;
       return true;
     }
-    return hits_[i].valid() || next[i].z() < 0.0 || drops_[i].age_s > config_.max_flight_s;
+    return hits_[i].valid() || next[i].z() < kLost_m || drops_[i].age_s > config_.max_flight_s;
   };
   std::vector<Drop> flying;
   flying.reserve(drops_.size());

@@ -4,10 +4,13 @@
 
 #include "common/config/resources.h"
 #include "common/core/check.h"
+#include "common/core/log.h"
 #include "robot/scene/arena_map.h"
 #include "robot/sim/arm_device.h"
 #include "robot/sim/base_device.h"
 #include "robot/sim/collision_monitor.h"
+#include "robot/sim/disturbances.h"
+#include "robot/sim/fault_catalog.h"
 #include "robot/sim/fault_script.h"
 #include "robot/sim/physics.h"
 #include "robot/sim/pump_device.h"
@@ -18,6 +21,8 @@ namespace kiln::sim {
 namespace {
 
 constexpr double kObstacleAhead_m = 0.30;  // of the flange, along its axis
+constexpr double kUprightCosine = 0.87;    // 30 degrees: beyond that no wheel saves it
+constexpr double kSunk_m = 0.3;
 
 template <class T>
 Result<T> loadResource(const std::string& relative) {
@@ -44,12 +49,14 @@ struct World::Impl {
         pumps(c.water, s),
         jet(c.water, arena.fire_places, s),
         collisions(c.collision_force_n),
+        disturbances(arena, r, s),
         sensors(c, arena, r, s, options.render_colour) {}
 
   void carryToStart();
   void stepOnce();
   void applyFaults();
   void stepWater();
+  void noticeFall();
   [[nodiscard]] SceneState scene() const;
   [[nodiscard]] double plate() const {
     return config.fire.ambient_c +
@@ -72,9 +79,11 @@ struct World::Impl {
   PumpDevice pumps;
   WaterJet jet;
   CollisionMonitor collisions;
+  Disturbances disturbances;
   SensorSuite sensors;
   std::optional<Eigen::Vector3d> obstacle;
   bool protective_stop_done = false;
+  std::optional<Stamp> fell;
   std::uint32_t resets = 0;
   std::vector<Pose2> starts;
   std::uint64_t seq = 0;
@@ -84,7 +93,7 @@ struct World::Impl {
 void World::Impl::carryToStart() {
   starts.push_back(drawStart(config.perturbation, arena.nominal_start, seed, resets));
   const Vector6d q = RobotGeometry::radians(robot.q_park_deg);
-  physics->carryTo(starts.back(), q);
+  physics->carryTo(arena.ground.standing(starts.back(), robot), q);
   arm.reset(now, q);
   base.reset();
 }
@@ -100,6 +109,7 @@ SceneState World::Impl::scene() const {
   }
   state.plate_c = plate();
   state.obstacle = obstacle;
+  disturbances.show(state);
   return state;
 }
 
@@ -116,6 +126,23 @@ void World::Impl::applyFaults() {
   const bool stop = faults.active("protective_stop", now);
   if (stop && !protective_stop_done) arm.protectiveStop();
   protective_stop_done = stop;
+  const FaultConfig* runaway = faults.find("runaway", now);
+  base.setRunaway(runaway != nullptr ? faultValue(*runaway, 0) : 1.0,
+                  runaway != nullptr ? faultValue(*runaway, 1) : 0.0);
+  disturbances.step(faults, now, toSeconds(step), *physics);
+}
+
+/// Nothing in the arena can bring the robot there without a collision; said apart, so that nobody
+/// reads meaning into what comes after.
+void World::Impl::noticeFall() {
+  if (fell) return;
+  const Eigen::Isometry3d X = physics->X_map_base();
+  if (X.linear()(2, 2) > kUprightCosine && X.translation().z() > arena.ground.lowest() - kSunk_m)
+    return;
+  fell = now;
+  logger("sim.world")
+      ->error("the robot fell over at x {:.2f}, y {:.2f}; only a reset helps", X.translation().x(),
+              X.translation().y());
 }
 
 void World::Impl::stepWater() {
@@ -138,6 +165,7 @@ void World::Impl::stepOnce() {
   now += step;
   arm.sense(dt, *physics);
   collisions.observe(now, physics->contacts());
+  noticeFall();
   stepWater();
   sensors.afterStep(scene(), faults, [this] { return jet.drops(); });
 }
@@ -150,6 +178,9 @@ Result<std::unique_ptr<World>> World::create(const WorldConfig& config, std::uin
   if (auto ok = config.validate(); !ok) return tl::make_unexpected(ok.error());
   const auto map = loadResource<ArenaMap>(config.arena);
   if (!map) return tl::make_unexpected(map.error());
+  if (auto ok = map->approach.validate(); !ok) {
+    return makeError(ErrorCode::InvalidInput, "{}: {}", config.arena, ok.error().message);
+  }
   const auto robot = loadResource<RobotGeometry>(config.robot);
   if (!robot) return tl::make_unexpected(robot.error());
   auto impl = std::make_unique<Impl>(config, *map, *robot, seed, options);
@@ -232,7 +263,12 @@ Truth World::truth() const {
   t.jet_on = w.pumps.flowFraction() > 0.0;
   t.plate_c = scene.plate_c;
   t.starts = w.starts;
+  t.kidnaps = w.disturbances.kidnaps();
+  t.people = scene.people;
+  t.fell = w.fell;
   t.arena = w.arena;
+  if (const auto& moved = w.disturbances.moved())
+    t.arena.boxes[moved->box].X_map_box = moved->X_map_box;
   return t;
 }
 

@@ -67,7 +67,10 @@ struct Truth {
   Vector6d q;
   bool jet_on = false;
   double plate_c = 25.0;
-  std::vector<Pose2> starts;  ///< after each carrying, the first one included
+  std::vector<Pose2> starts;   ///< after each carrying, the first one included
+  std::vector<Pose2> kidnaps;  ///< where the robot was put without anybody saying so
+  std::vector<Eigen::Vector3d> people;
+  std::optional<Stamp> fell;  ///< the base first lay on its side, or below the ground
   TrueArena arena;
 };
 

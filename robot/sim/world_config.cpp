@@ -1,45 +1,10 @@
 #include "robot/sim/world_config.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 
-#include <fmt/ranges.h>
+#include "robot/sim/fault_catalog.h"
 
 namespace kiln::sim {
-namespace {
-
-constexpr std::array<const char*, 8> kFaults = {
-    "pump_blocked_left", "pump_blocked_right", "pump_blocked",    "thermal_freeze",
-    "lidar_dropout",     "arm_obstacle",       "protective_stop", "camera_freeze"};
-
-Result<void> checkFault(const FaultConfig& fault) {
-  if (std::find(kFaults.begin(), kFaults.end(), fault.name) == kFaults.end()) {
-    return makeError(ErrorCode::InvalidInput, "unknown fault '{}'; known are {}", fault.name,
-                     fmt::join(kFaults, ", "));
-  }
-  if (!(fault.at_s >= 0) || !(fault.duration_s > 0)) {
-    return makeError(
-        ErrorCode::InvalidInput,
-        "fault '{}' begins at {} s for {} s; give a start of 0 or more and a duration above 0",
-        fault.name, fault.at_s, fault.duration_s);
-  }
-  return {};
-}
-
-Result<double> number(const std::string& text, const std::string& whole) {
-  try {
-    std::size_t used = 0;
-    const double value = std::stod(text, &used);
-    if (used == text.size() && std::isfinite(value)) return value;
-  } catch (const std::exception&) {  // std::stod reports bad text in no other way
-  }
-  return makeError(ErrorCode::InvalidInput,
-                   "'{}' in fault '{}' is no number; write NAME@SECONDS[:SECONDS]", text, whole);
-}
-
-}  // namespace
-
 void PhysicsConfig::visit(ConfigArchive& a) {
   a.field("step_s", step_s, "s", 0.0005, 0.01, "physics step");
   a.field("contact_slack_s", contact_slack_s, "s", 0, 0.1,
@@ -56,38 +21,11 @@ void DistractorConfig::visit(ConfigArchive& a) {
   a.field("solid", solid, "false: a warm patch that only the thermal camera sees");
 }
 
-void FaultConfig::visit(ConfigArchive& a) {
-  a.field("name", name, "which fault");
-  a.field("at_s", at_s, "s", 0, 1e9, "simulated time of its begin");
-  a.field("duration_s", duration_s, "s", 0, 1e9, "how long it lasts");
-}
-
-Result<FaultConfig> FaultConfig::parse(const std::string& text) {
-  FaultConfig fault;
-  const std::size_t at = text.find('@');
-  fault.name = text.substr(0, at);
-  if (at == std::string::npos) {
-    return makeError(ErrorCode::InvalidInput,
-                     "fault '{}' has no time; write NAME@SECONDS[:SECONDS]", text);
-  }
-  const std::size_t colon = text.find(':', at);
-  const auto begin =
-      number(text.substr(at + 1, colon == std::string::npos ? colon : colon - at - 1), text);
-  if (!begin) return tl::make_unexpected(begin.error());
-  fault.at_s = *begin;
-  if (colon != std::string::npos) {
-    const auto duration = number(text.substr(colon + 1), text);
-    if (!duration) return tl::make_unexpected(duration.error());
-    fault.duration_s = *duration;
-  }
-  if (const auto ok = checkFault(fault); !ok) return tl::make_unexpected(ok.error());
-  return fault;
-}
-
 void WorldConfig::visit(ConfigArchive& a) {
   a.field("name", name, "for the operator");
   a.field("arena", arena, "nominal arena, below resources/");
   a.field("robot", robot, "nominal robot, below resources/");
+  a.field("approach", approach, "ramp and edge of the arena; false: flat ground");
   a.field("device_period_s", device_period_s, "s", 0.002, 0.1,
           "a report each so often in real time");
   a.section("physics", physics, "rigid bodies and contacts");

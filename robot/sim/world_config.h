@@ -22,10 +22,11 @@ struct BaseDeviceConfig {
   double tank_kg = 6.0;          ///< each, with water
   double wheel_kg = 3.0;
   double wheel_width_m = 0.05;
-  double drive_torque_nm = 18.0;      ///< hub motor peak
-  double drive_gain = 10.0;           ///< Nm per rad/s
-  double drive_integral_gain = 60.0;  ///< Nm per rad
-  double rotor_inertia_kgm2 = 0.05;   ///< hub motor and steering, at the joint
+  double drive_torque_nm = 18.0;           ///< hub motor peak
+  double torque_constant_nm_per_a = 0.52;  ///< 8.27 / KV, KV 16
+  double drive_gain = 10.0;                ///< Nm per rad/s
+  double drive_integral_gain = 60.0;       ///< Nm per rad
+  double rotor_inertia_kgm2 = 0.05;        ///< hub motor and steering, at the joint
   double steer_torque_nm = 40.0;
   double steer_gain = 800.0;    ///< Nm per rad
   double steer_damping = 15.0;  ///< Nm per rad/s
@@ -118,6 +119,7 @@ struct PerturbationConfig {
   double size_m = 0.002;                            ///< uniform, +-, of every box
   double plate_off_centre_m = 0.003;                ///< uniform, +-
   double extrinsic_m = 0.005, extrinsic_deg = 0.3;  ///< sigma per axis
+  double slope_deg = 0.5, edge_m = 0.005;           ///< ramp and edge before the door, uniform, +-
   void visit(ConfigArchive& a);
 };
 
@@ -142,14 +144,14 @@ struct DistractorConfig {
   void visit(ConfigArchive& a);
 };
 
-/// A scripted fault: pump_blocked_left, pump_blocked_right, pump_blocked, thermal_freeze,
-/// lidar_dropout, arm_obstacle, protective_stop, camera_freeze.
+/// A scripted fault; the kinds and their numbers: fault_catalog.h.
 struct FaultConfig {
   std::string name;
   double at_s = 0.0;
   double duration_s = 1e9;
+  std::vector<double> values;
   void visit(ConfigArchive& a);
-  /// "NAME@T[:DURATION]", seconds. Error names the known faults.
+  /// "NAME[=VALUE,...]@T[:DURATION]", seconds. Error names the known faults.
   [[nodiscard]] static Result<FaultConfig> parse(const std::string& text);
 };
 
@@ -158,6 +160,7 @@ struct WorldConfig {
   std::string name = "fire";
   std::string arena = "config/arena_kitchen.yaml";  ///< below resources/
   std::string robot = "robot_model/bob.yaml";       ///< below resources/
+  bool approach = false;  ///< ramp and edge of the arena; false: the ground is flat, z = 0
   double device_period_s = 0.008;
   PhysicsConfig physics;
   BaseDeviceConfig base;

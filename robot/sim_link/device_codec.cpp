@@ -57,7 +57,7 @@ Result<BaseState> baseFromProto(const v1::device::Report& report, Duration shift
   for (int i = 0; i < 4; ++i) {
     const v1::device::Wheel& wheel = m.wheels(i);
     state.wheels[static_cast<std::size_t>(i)] = {wheel.steer_rad(), wheel.drive_radps(),
-                                                 wheel.drive_angle_rad()};
+                                                 wheel.drive_angle_rad(), wheel.drive_current_a()};
   }
   state.battery_v = m.battery_v();
   state.battery_a = m.battery_a();

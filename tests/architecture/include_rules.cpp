@@ -50,7 +50,7 @@ std::string judge(const RoomTable& table, const std::string& path, const std::st
   const std::string from = table.roomOf(path);
   if (startsWith(include, "tests/")) return "the program may not include its tests";
   std::string to = table.roomOf(include);
-  if (startsWith(include, "kiln/v1/")) to = "proto";
+  if (startsWith(include, "kiln/v1/") || startsWith(include, "foxglove/")) to = "proto";
   if (to.empty()) {
     const bool ours = startsWith(include, "common/") || startsWith(include, "robot/") ||
                       startsWith(include, "gui/");

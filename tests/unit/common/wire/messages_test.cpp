@@ -29,6 +29,7 @@ std::vector<CommandBody> everyBody() {
           SetSpeedScale{0.0},
           CancelMacro{},
           AcknowledgeAlarm{"arm.x"},
+          SetRecording{true},
           JogBase{{0.1, -0.2, 0.3}},
           arm,
           HoldPump{0.0, 1.0},

@@ -1,0 +1,45 @@
+#include "common/record/run_topics.h"
+
+namespace kiln::run {
+
+std::string topicName(Topic topic) {
+  if (topic == Topic::HeadCamera) return std::string(kHeadCamera);
+  if (topic == Topic::OperatorCamera) return std::string(kOperatorCamera);
+  return "/kiln/" + std::string(topicInfo(topic).name);
+}
+
+std::optional<Topic> publishedTopic(std::string_view name) {
+  for (const TopicInfo& info : topicTable()) {
+    if (topicName(info.topic) == name) return info.topic;
+  }
+  return std::nullopt;
+}
+
+std::string_view schemaName(Topic topic) {
+  switch (topic) {
+    case Topic::RobotStatus:
+      return "kiln.v1.RobotStatus";
+    case Topic::FsmStatus:
+      return "kiln.v1.FsmStatus";
+    case Topic::FsmInfo:
+      return "kiln.v1.FsmInfo";
+    case Topic::Scene:
+      return "kiln.v1.Scene";
+    case Topic::Macros:
+      return "kiln.v1.MacroList";
+    case Topic::Log:
+      return "kiln.v1.LogBatch";
+    case Topic::Cloud:
+      return "kiln.v1.Cloud";
+    case Topic::Thermal:
+      return "kiln.v1.ThermalFrame";
+    case Topic::Heat:
+      return "kiln.v1.HeatDetections";
+    case Topic::HeadCamera:
+    case Topic::OperatorCamera:
+      return "foxglove.CompressedImage";
+  }
+  return "";
+}
+
+}  // namespace kiln::run

@@ -1,0 +1,79 @@
+#include "robot/sim/disturbances.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "robot/sim/fault_catalog.h"
+
+namespace kiln::sim {
+namespace {
+
+constexpr double kDeg = M_PI / 180.0;
+
+Pose2 shift(const FaultConfig& fault) {
+  return {faultValue(fault, 0), faultValue(fault, 1), faultValue(fault, 2) * kDeg};
+}
+
+}  // namespace
+
+Disturbances::Disturbances(const TrueArena& arena, const RobotGeometry& robot, std::uint64_t seed)
+    : arena_(arena), robot_(robot), seed_(seed) {
+  for (std::size_t i = 0; i < arena.boxes.size() && !cupboard_; ++i) {
+    if (arena.boxes[i].name == "cupboard") cupboard_ = i;
+  }
+}
+
+void Disturbances::kidnap(const FaultScript& faults, Stamp now, Physics& physics) {
+  kidnapped_.resize(faults.all().size(), false);
+  for (std::size_t i = 0; i < kidnapped_.size(); ++i) {
+    const FaultConfig& fault = faults.all()[i];
+    if (kidnapped_[i] || fault.name != "kidnap" || toSeconds(now) < fault.at_s) continue;
+    kidnapped_[i] = true;
+    kidnaps_.push_back(projectToGround(physics.X_map_base()) * shift(fault));
+    physics.displace(arena_.ground.standing(kidnaps_.back(), robot_));
+  }
+}
+
+void Disturbances::moveCupboard(const FaultConfig* fault, Physics& physics) {
+  if ((fault != nullptr) == moved_.has_value() || !cupboard_) return;
+  const SolidBox& box = arena_.boxes[*cupboard_];
+  moved_.reset();
+  if (fault != nullptr) {
+    const Pose2 by = shift(*fault);
+    Eigen::Isometry3d X = box.X_map_box;
+    X.pretranslate(Eigen::Vector3d(by.x_m, by.y_m, 0));
+    X.rotate(Eigen::AngleAxisd(by.yaw_rad, Eigen::Vector3d::UnitZ()));
+    moved_ = MovedBox{*cupboard_, X};
+  }
+  physics.moveBox(box.name, moved_ ? moved_->X_map_box : box.X_map_box);
+}
+
+void Disturbances::walk(const FaultConfig* fault, double step_s, const Physics& physics) {
+  if (fault == nullptr) {
+    walkers_.reset();
+    return;
+  }
+  if (!walkers_) {
+    const double count = std::clamp(faultValue(*fault, 0), 0.0, static_cast<double>(kMaxPeople));
+    walkers_.emplace(arena_, seed_, static_cast<std::size_t>(count));
+  }
+  walkers_->step(step_s, physics.X_map_base().translation().head<2>());
+}
+
+void Disturbances::step(const FaultScript& faults, Stamp now, double step_s, Physics& physics) {
+  if (faults.all().empty()) return;
+  kidnap(faults, now, physics);
+  moveCupboard(faults.find("cupboard_moved", now), physics);
+  walk(faults.find("people", now), step_s, physics);
+  const FaultConfig* blocked = faults.find("view_blocked", now);
+  board_azimuth_rad_.reset();
+  if (blocked != nullptr) board_azimuth_rad_ = faultValue(*blocked, 0) * kDeg;
+}
+
+void Disturbances::show(SceneState& state) const {
+  if (walkers_) state.people = walkers_->feet();
+  state.moved = moved_;
+  state.board_azimuth_rad = board_azimuth_rad_;
+}
+
+}  // namespace kiln::sim

@@ -1,0 +1,116 @@
+// Files that a crash, a full disk or a bad sector has damaged.
+#include <gtest/gtest.h>
+
+#include "tests/fuzz/mutator.h"
+#include "tests/unit/common/record/sample_recording.h"
+
+namespace kiln::test {
+namespace {
+
+TEST(Recovery, FileWithoutAnEndOpensUpToItsLastChunk) {
+  const RecordFolder folder;
+  writeSample(folder.file("a.mcap"), 5.0, 10.0, true);
+  const std::string whole = readAll(folder.file("a.mcap"));
+  std::size_t most = 0;
+  bool grew = false;
+  for (std::size_t n = 8; n < whole.size(); n += 7) {
+    writeAll(folder.file("cut.mcap"), std::string_view(whole).substr(0, n));
+    const auto reader = RecordReader::open(folder.file("cut.mcap"));
+    ASSERT_TRUE(reader) << n << ": " << reader.error();
+    const Collected got = collect(reader->messages());
+    EXPECT_EQ(got.damaged, 0) << n;
+    EXPECT_GE(got.payloads.size(), most) << n;  // more bytes never show less
+    grew = grew || got.payloads.size() > most;
+    most = got.payloads.size();
+    // Whole seconds: a chunk is there as a whole or not at all.
+    EXPECT_EQ(got.payloads.size() % 101, 0u) << n;
+  }
+  EXPECT_TRUE(grew);
+  EXPECT_EQ(most, 505u);
+}
+
+TEST(Recovery, RecordingInProgressCanBeRead) {
+  const RecordFolder folder;
+  auto writer = RecordWriter::create(folder.file("a.mcap"));
+  ASSERT_TRUE(writer) << writer.error();
+  const auto channel = (*writer)->addChannel("/t", {"test.T", "protobuf", "s"});
+  ASSERT_TRUE(channel);
+  for (int i = 0; i < 35; ++i)
+    ASSERT_TRUE((*writer)->write(*channel, at(0.1 * i), at(0.1 * i), "x"));
+  // 3.4 s have been written in chunks of one second: three of them are out, which is what survives
+  // a kill -9 at this moment.
+  const auto reader = RecordReader::open(folder.file("a.mcap"));
+  ASSERT_TRUE(reader) << reader.error();
+  EXPECT_FALSE(reader->complete());
+  EXPECT_EQ(collect(reader->messages()).payloads.size(), 30u);
+  ASSERT_TRUE((*writer)->flushIfDue(at(3.9)));  // 0.9 s old
+  EXPECT_EQ(collect(RecordReader::open(folder.file("a.mcap"))->messages()).payloads.size(), 30u);
+  ASSERT_TRUE((*writer)->flushIfDue(at(4.0)));
+  EXPECT_EQ(collect(RecordReader::open(folder.file("a.mcap"))->messages()).payloads.size(), 35u);
+}
+
+TEST(Recovery, DamagedChunkIsNamedAndLeftOut) {
+  const RecordFolder folder;
+  writeSample(folder.file("a.mcap"), 5.0);
+  std::string file = readAll(folder.file("a.mcap"));
+  std::size_t frame = 0;
+  for (int chunk = 0; chunk < 3; ++chunk) frame = file.find("\x28\xB5\x2F\xFD", frame + 1);  // zstd
+  ASSERT_NE(frame, std::string::npos);
+  file[frame + 40] = static_cast<char>(file[frame + 40] ^ 0x40);
+  writeAll(folder.file("b.mcap"), file);
+  const auto reader = RecordReader::open(folder.file("b.mcap"));
+  ASSERT_TRUE(reader) << reader.error();
+  const Collected got = collect(reader->messages());
+  EXPECT_EQ(got.damaged, 1);
+  EXPECT_EQ(got.payloads.size(), 404u);
+}
+
+TEST(Recovery, DamagedSummaryFallsBackToTheData) {
+  const RecordFolder folder;
+  writeSample(folder.file("a.mcap"), 5.0);
+  std::string file = readAll(folder.file("a.mcap"));
+  file[file.size() - 60] = static_cast<char>(file[file.size() - 60] ^ 1);
+  writeAll(folder.file("b.mcap"), file);
+  const auto reader = RecordReader::open(folder.file("b.mcap"));
+  ASSERT_TRUE(reader) << reader.error();
+  EXPECT_EQ(collect(reader->messages()).payloads.size(), 505u);
+  EXPECT_EQ(reader->topics().at(0).messages, 500u);
+}
+
+TEST(Recovery, OtherFilesAreRefusedInWords) {
+  const RecordFolder folder;
+  for (const std::string_view content : {"", "short", "not an MCAP file, but long enough"}) {
+    writeAll(folder.file("x"), content);
+    const auto reader = RecordReader::open(folder.file("x"));
+    ASSERT_FALSE(reader);
+    EXPECT_EQ(reader.error().code, ErrorCode::InvalidInput);
+  }
+  EXPECT_EQ(RecordReader::open(folder.file("absent")).error().code, ErrorCode::NotFound);
+}
+
+TEST(Recovery, NoDamageCrashesTheReader) {
+  const RecordFolder folder;
+  writeSample(folder.file("a.mcap"), 3.0);
+  const std::string whole = readAll(folder.file("a.mcap"));
+  const fuzz::Bytes original(whole.begin(), whole.end());
+  int opened = 0, messages = 0;
+  for (std::uint64_t seed = 0; seed < 1500; ++seed) {
+    fuzz::Mutator mutator(seed);
+    const fuzz::Bytes damaged = mutator.mutate(original);
+    writeAll(folder.file("d.mcap"),
+             std::string_view(reinterpret_cast<const char*>(damaged.data()), damaged.size()));
+    const auto reader = RecordReader::open(folder.file("d.mcap"));
+    if (!reader) continue;
+    ++opened;
+    const Collected got = collect(reader->messages({}, at(0.01 * static_cast<double>(seed))));
+    messages += static_cast<int>(got.payloads.size());
+    EXPECT_TRUE(std::is_sorted(got.times.begin(), got.times.end())) << seed;
+    (void)reader->newestBefore(at(11.5));
+    (void)reader->attachment("notes.txt");
+  }
+  EXPECT_GT(opened, 1000);
+  EXPECT_GT(messages, 10000);
+}
+
+}  // namespace
+}  // namespace kiln::test
