@@ -75,6 +75,9 @@ CommandAck MissionControl::executeDiscrete(const Command& command, Stamp now) {
     return done(command);
   }
   if (std::holds_alternative<Resume>(body)) {
+    if (const std::string lost = parts_.position_lost(); !lost.empty())
+      return answer(command, AckOutcome::Refused, "position_lost",
+                    lost + "; set the robot's pose on the map, drive by hand or call a reset");
     if (mode_ == Mode::Teleop) return setMode(command, before_teleop_, now);
     pause_reason_.clear();
     parts_.mission.machine().resume(now);
@@ -197,6 +200,12 @@ void MissionControl::watchStop(Stamp now) {
   parts_.mission.machine().pause(pause_reason_, now);
   hold(now);
   logger("safety")->error("{}; clear it from a station that holds the lease", pause_reason_);
+}
+
+void MissionControl::holdMission(const std::string& reason, Stamp now) {
+  pause_reason_ = reason;
+  parts_.mission.machine().pause(reason, now);
+  logger("mission")->error("{}; the mission waits until an operator resumes it", reason);
 }
 
 void MissionControl::onReset(Stamp now) {

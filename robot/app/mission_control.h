@@ -29,6 +29,7 @@ class MissionControl {
     ArmController& arm_controller;
     Arena& arena;
     std::function<Pose2()> pose;                 ///< newest X_map_base
+    std::function<std::string()> position_lost;  ///< why the robot does not know where it is; or ""
     std::function<void(bool on)> set_recording;  ///< empty: this robot cannot record
   };
   explicit MissionControl(Parts parts) : parts_(parts) {}
@@ -44,6 +45,8 @@ class MissionControl {
   void onReleased(const std::vector<HoldKind>& kinds, Stamp now);
   void onLeaseLost(Stamp now);
   void watchStop(Stamp now);
+  /// Autonomy may not go on: the mission waits, with the reason, for an operator to resume it.
+  void holdMission(const std::string& reason, Stamp now);
   /// The world says that the robot was carried back to its start.
   void onReset(Stamp now);
   /// Steps what runs in this mode: machine or macro.

@@ -10,6 +10,7 @@ namespace kiln {
 
 namespace {
 
+constexpr Duration kFirstFix = std::chrono::seconds(3);
 constexpr Duration kMissionPeriod = std::chrono::milliseconds(20);
 
 template <class T>
@@ -46,7 +47,7 @@ Robot::Impl::Impl(const RobotSettings& settings_in, const RobotOptions& options_
       self_filter(robot, settings.self_filter),
       locator(std::move(locator_in)),
       detector(settings.heat_detector),
-      localizer(settings.localization.localizer, arena),
+      localizer(settings.localization.localizer, arena, robot),
       perception(settings.perception, executor, robot, history, self_filter, *locator, detector,
                  settings.heat_detector.modelled_latency_s),
       drive(settings.drive_to, arena, base, [this] { return pose(); }),
@@ -62,8 +63,17 @@ Robot::Impl::Impl(const RobotSettings& settings_in, const RobotOptions& options_
              std::move(macros_in)),
       teleop(settings.teleop, robot, arena, base, arm, pumps),
       authority(settings.authority),
-      control({mission, teleop, macros, alarms, stop, devices.arm, arm, devices.arena,
-               [this] { return pose(); }}),
+      control({mission,
+               teleop,
+               macros,
+               alarms,
+               stop,
+               devices.arm,
+               arm,
+               devices.arena,
+               [this] { return pose(); },
+               [this] { return positionLost(); },
+               {}}),
       telemetry({10.0, 10.0, 5.0, settings.camera_rate_hz, settings.jpeg_quality}, link, executor),
       report(options.mission, clock.now()) {}
 
@@ -96,6 +106,7 @@ void Robot::Impl::controlTick(Stamp now) {
 void Robot::Impl::missionTick(Stamp now) {
   readSensors(now);
   takePerception(now);
+  watchPosition(now);
   obeyOperators(now);
   startWhenReady(now);
   control.step(now, authority.held(HoldKind::Macro, now));
@@ -110,6 +121,7 @@ void Robot::Impl::readSensors(Stamp now) {
     base.resetOdometry();
     history.clear();
     localizer.reset(arena.start.pose(), now);
+    carried = now;
     control.onReset(now);
     return;  // the old odometry is still in the tracking of this instant
   }
@@ -138,6 +150,18 @@ void Robot::Impl::takePerception(Stamp now) {
     telemetry.publish(std::move(result.detections));
   }
   tracked = localizer.pose(now);
+}
+
+std::string Robot::Impl::positionLost() const {
+  return tracked.health == PoseHealth::Lost ? "position lost: " + tracked.reason : std::string();
+}
+
+/// A mission does not go on from a place that nobody knows. After a reset the first scans decide.
+void Robot::Impl::watchPosition(Stamp now) {
+  if (tracked.health != PoseHealth::Lost) carried.reset();
+  if (tracked.health != PoseHealth::Lost || !fsm.running || fsm.paused || fsm.terminal) return;
+  if (carried && now - *carried < kFirstFix) return;
+  control.holdMission(positionLost(), now);
 }
 
 void Robot::Impl::obeyOperators(Stamp now) {

@@ -24,6 +24,7 @@ struct Robot::Impl {
 
   void readSensors(Stamp now);
   void takePerception(Stamp now);
+  void watchPosition(Stamp now);
   void obeyOperators(Stamp now);
   void startWhenReady(Stamp now);
   void keepBooks(Stamp now);
@@ -36,6 +37,8 @@ struct Robot::Impl {
   [[nodiscard]] PreflightInputs preflightInputs(Stamp now) const;
   [[nodiscard]] bool atStandstill() const;
   [[nodiscard]] Pose2 pose() const { return tracked.X_map_base; }
+  /// Why nobody knows where the robot is, in words; empty: it is known.
+  [[nodiscard]] std::string positionLost() const;
   [[nodiscard]] std::string checkpointPath() const {
     return options.state_dir.empty() ? std::string()
                                      : options.state_dir + "/" + options.mission + ".checkpoint";
@@ -87,6 +90,7 @@ struct Robot::Impl {
   std::uint64_t status_seq = 0;
   bool storage_ok = true;
   bool resume_pending = false;
+  std::optional<Stamp> carried;  ///< the last reset, until the first scan has been matched
   bool camera_runs = false;
   std::atomic<bool> ended{false}, succeeded{false};
 };

@@ -35,11 +35,15 @@ void Localizer::Config::visit(ConfigArchive& a) {
   a.section("tracker", tracker, "odometry and fixes");
 }
 
-Localizer::Localizer(const Config& config, const ArenaMap& arena)
-    : config_(config), arena_(arena), tracker_(config.tracker) {}
+Localizer::Localizer(const Config& config, const ArenaMap& arena, const RobotGeometry& robot)
+    : config_(config),
+      arena_(arena),
+      robot_(robot),
+      ground_(arena.approach),
+      tracker_(config.tracker) {}
 
 Eigen::Isometry3d Localizer::onNominalGround(const Pose2& X_map_base) const {
-  return toIsometry(X_map_base);
+  return ground_.standing(X_map_base, robot_);
 }
 
 Submap Localizer::submapAt(const Pose2& X_map_base, Submap current) const {

@@ -31,9 +31,9 @@ class Localizer {
     void visit(ConfigArchive& a);
   };
 
-  Localizer(const Config& config, const ArenaMap& arena);
+  Localizer(const Config& config, const ArenaMap& arena, const RobotGeometry& robot);
 
-  /// The robot was put down near `X_map_base`.
+  /// The robot was put down near `X_map_base`, on the ground as it was surveyed.
   void reset(const Pose2& X_map_base, Stamp now);
   void addOdometry(Stamp stamp, const Pose2& X_odom_base);
   /// What to match the scan of time `t` with; nullopt if there is no odometry for it.
@@ -54,6 +54,8 @@ class Localizer {
 
   Config config_;
   ArenaMap arena_;
+  RobotGeometry robot_;
+  GroundProfile ground_;
   PoseTracker tracker_;
   Submap submap_ = Submap::Outdoor;
   std::vector<Pose2> places_;  ///< searched one after the other while lost

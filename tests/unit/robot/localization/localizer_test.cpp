@@ -25,7 +25,7 @@ ScanMatch matchAt(const Pose2& X_map_base, double inlier_fraction = 0.9) {
 /// A robot that stands still; each scan is answered by `see`.
 class LocalizerTest : public ::testing::Test {
  protected:
-  LocalizerTest() : arena_(testing::kitchen()), localizer_({}, arena_) {
+  LocalizerTest() : arena_(testing::kitchen()), localizer_({}, arena_, RobotGeometry{}) {
     localizer_.reset(arena_.start.pose(), at(0));
   }
   AlignmentPrior nextScan() {
