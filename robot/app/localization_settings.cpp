@@ -14,6 +14,12 @@ void LocalizationSettings::visit(ConfigArchive& a) {
   a.section("aligner", aligner, "scan against the nominal walls");
 }
 
+Localizer::Config LocalizationSettings::localizerConfig() const {
+  Localizer::Config config = localizer;
+  config.tracker.odometry_only = config.tracker.odometry_only || method == "odometry";
+  return config;
+}
+
 Result<std::unique_ptr<ScanLocator>> makeLocator(const LocalizationSettings& settings,
                                                  const ArenaMap& arena) {
   if (settings.method == "walls" || settings.method == "odometry")

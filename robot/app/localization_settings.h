@@ -16,6 +16,7 @@ struct LocalizationSettings {
   ScanMatcher::Config matcher;
   BoxMapAligner::Config aligner;
   void visit(ConfigArchive& a);
+  [[nodiscard]] Localizer::Config localizerConfig() const;  ///< as the method wants it
 };
 
 /// Error: InvalidInput for an unknown method; what loading the map says.

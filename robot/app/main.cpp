@@ -2,6 +2,7 @@
 #include <filesystem>
 
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 #include <unistd.h>
 
 #include "common/config/resources.h"
@@ -28,6 +29,7 @@ struct Arguments {
   std::string sim, lidar, thermal;
   std::string listen = "tcp://127.0.0.1:7300";
   std::string report;
+  std::string localization;
   double heat_threshold_c = 0.0;
   bool exit_when_done = false;
   bool print_config = false;
@@ -48,6 +50,8 @@ void addOptions(CLI::App& app, Arguments& a) {
   app.add_option("--heat-threshold-c", a.heat_threshold_c,
                  "a heat source is hotter than this (default: the config's)")
       ->check(CLI::Range(1.0, 400.0));
+  app.add_option("--localization", a.localization, "how to locate (default: the config's)")
+      ->check(CLI::IsMember({"surfel_map", "walls", "odometry"}));
   app.add_option("--mission", a.robot.mission, "mission")
       ->default_val("fire")
       ->check(CLI::IsMember({"fire"}));
@@ -57,7 +61,8 @@ void addOptions(CLI::App& app, Arguments& a) {
                "step together with kiln-sim --lockstep, as fast as possible");
   app.add_flag("--exit-when-done", a.exit_when_done,
                "end when the mission has ended; exit status 0 on success");
-  app.add_option("--report", a.report, "write the mission report (JSON) at the end");
+  app.add_option("--report", a.report,
+                 "write the mission report (JSON) at the end; wall times go to FILE.timing");
   app.add_option("--state-dir", a.robot.state_dir,
                  "checkpoint, pose and lock; default: $XDG_STATE_HOME/kiln or ~/.local/state/kiln");
   app.add_option("--listen", a.listen,
@@ -87,7 +92,15 @@ Result<RobotSettings> loadSettings(const Arguments& a) {
   }
   if (auto loaded = loadConfig(file, settings); !loaded) return tl::make_unexpected(loaded.error());
   if (a.heat_threshold_c > 0.0) settings.heat_detector.threshold_c = a.heat_threshold_c;
+  if (!a.localization.empty()) settings.localization.method = a.localization;
   return settings;
+}
+
+Result<void> writeReports(const Arguments& a, const Robot& robot, Stamp now) {
+  if (a.report.empty()) return {};
+  if (auto written = writeFileAtomically(a.report, robot.reportJson(now)); !written) return written;
+  const nlohmann::json timing{{"locate_s", robot.locateCosts()}};
+  return writeFileAtomically(a.report + ".timing", timing.dump() + "\n");
 }
 
 /// The world or recorded files: where this robot's devices come from, and the clock and executor
@@ -227,11 +240,8 @@ int run(Arguments a) {
     runRealTime([&] { return !a.exit_when_done || runtime.clock().now() >= farewell; });
     runtime.threads->stop();
   }
-  if (!a.report.empty()) {
-    if (auto written = writeFileAtomically(a.report, (*robot)->reportJson(runtime.clock().now()));
-        !written)
-      return fail(written.error());
-  }
+  if (auto written = writeReports(a, **robot, runtime.clock().now()); !written)
+    return fail(written.error());
   if (g_termination_signal != 0) return 128 + g_termination_signal;
   return !a.exit_when_done || (*robot)->missionSucceeded() ? kSuccess : kMissionFailed;
 }

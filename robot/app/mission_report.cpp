@@ -9,6 +9,8 @@ namespace {
 
 using nlohmann::json;
 
+constexpr Duration kTrackPeriod = std::chrono::milliseconds(200);
+
 const char* causeName(TransitionCause cause) {
   switch (cause) {
     case TransitionCause::Normal:
@@ -47,6 +49,12 @@ void MissionReport::addHeatEstimate(const HeatRecord& record) {
   if (heat_.empty() || record.stamp > heat_.back().stamp) heat_.push_back(record);
 }
 
+void MissionReport::addTrack(const TrackRecord& record) {
+  if (!track_.empty() && record.stamp - track_.back().stamp < kTrackPeriod) return;
+  track_.push_back(record);
+  track_resets_.push_back(resets_);
+}
+
 std::string MissionReport::toJson(Stamp now) const {
   json states = json::array();
   for (const FsmHistoryEntry& entry : states_) {
@@ -67,6 +75,13 @@ std::string MissionReport::toJson(Stamp now) const {
          {"views", record.views},
          {"place", record.place}});
   }
+  json track = json::array();
+  for (std::size_t i = 0; i < track_.size(); ++i) {
+    const TrackRecord& r = track_[i];
+    track.push_back({toSeconds(r.stamp), r.X_map_base.x_m, r.X_map_base.y_m, r.X_map_base.yaw_rad,
+                     r.X_odom_base.x_m, r.X_odom_base.y_m, r.X_odom_base.yaw_rad, r.located ? 1 : 0,
+                     r.indoor ? 1 : 0, track_resets_[i]});
+  }
   const std::string outcome = !last_.terminal ? "unfinished" : last_.success ? "success" : "failed";
   const json report{{"mission", mission_},
                     {"version", KILN_VERSION},
@@ -76,7 +91,11 @@ std::string MissionReport::toJson(Stamp now) const {
                     {"litres_est", litres_est_},
                     {"resets", resets_},
                     {"states", states},
-                    {"heat_estimates", heat}};
+                    {"heat_estimates", heat},
+                    {"track_columns",
+                     {"t_s", "x_m", "y_m", "yaw_rad", "odom_x_m", "odom_y_m", "odom_yaw_rad",
+                      "located", "indoor", "resets"}},
+                    {"track", track}};
   return report.dump(2) + "\n";
 }
 

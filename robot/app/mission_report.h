@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "common/core/error.h"
+#include "common/geom/pose.h"
 #include "common/model/fire.h"
 #include "common/model/fsm.h"
 
@@ -24,6 +25,15 @@ class MissionReport {
     std::string place;
   };
   void addHeatEstimate(const HeatRecord& record);
+  /// Where the robot believed to be, five times a second.
+  struct TrackRecord {
+    Stamp stamp;
+    Pose2 X_map_base;
+    Pose2 X_odom_base;  ///< wheel odometry alone
+    bool located = false;
+    bool indoor = false;  ///< map in use
+  };
+  void addTrack(const TrackRecord& record);
   void setTotals(double litres_est, int resets) {
     litres_est_ = litres_est;
     resets_ = resets;
@@ -37,6 +47,8 @@ class MissionReport {
   Stamp start_;
   std::vector<FsmHistoryEntry> states_;
   std::vector<HeatRecord> heat_;
+  std::vector<TrackRecord> track_;
+  std::vector<int> track_resets_;  ///< of each record
   FsmStatus last_;
   double litres_est_ = 0.0;
   int resets_ = 0;

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "common/core/clock.h"
 #include "robot/perception/cloud/undistort.h"
 
 namespace kiln {
@@ -97,7 +98,10 @@ PerceptionJobs::ScanResult PerceptionJobs::processScan(
       std::make_shared<PointCloud>(undistort(filtered.cloud, motion.X_base_lidar, "base"));
   if (prior) {
     const Eigen::Vector3d p_base_lidar = motion.X_base_lidar.at(scan.stamp).translation();
+    const SteadyClock wall;
+    const Stamp begin = wall.now();
     result.match = locator_.locate(*result.cloud, p_base_lidar, *prior);
+    result.locate_s = toSeconds(wall.now() - begin);
   }
   return result;
 }

@@ -33,6 +33,7 @@ class PerceptionJobs {
     PointCloudPtr cloud;  ///< motion-compensated, without the robot itself; frame base (or lidar)
     AlignmentPrior prior;
     std::optional<Result<ScanMatch>> match;  ///< nullopt: not tried this time
+    double locate_s = 0.0;                   ///< wall time of it, in lockstep too
   };
   struct HeatResult {
     ThermalImagePtr image;

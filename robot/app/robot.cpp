@@ -10,6 +10,7 @@ namespace kiln {
 
 namespace {
 
+constexpr std::size_t kMostCosts = 100'000;  // scans: nearly three hours
 constexpr Duration kFirstFix = std::chrono::seconds(3);
 constexpr Duration kMissionPeriod = std::chrono::milliseconds(20);
 
@@ -47,7 +48,7 @@ Robot::Impl::Impl(const RobotSettings& settings_in, const RobotOptions& options_
       self_filter(robot, settings.self_filter),
       locator(std::move(locator_in)),
       detector(settings.heat_detector),
-      localizer(settings.localization.localizer, arena, robot),
+      localizer(settings.localization.localizerConfig(), arena, robot),
       perception(settings.perception, executor, robot, history, self_filter, *locator, detector,
                  settings.heat_detector.modelled_latency_s),
       drive(settings.drive_to, arena, base, [this] { return pose(); }),
@@ -133,7 +134,10 @@ void Robot::Impl::readSensors(Stamp now) {
 
 void Robot::Impl::takePerception(Stamp now) {
   for (auto& result : perception.takeScans()) {
-    if (result.match) (void)localizer.addResult(result.prior, *result.match);
+    if (result.match) {
+      (void)localizer.addResult(result.prior, *result.match);
+      if (locate_s.size() < kMostCosts) locate_s.push_back(static_cast<float>(result.locate_s));
+    }
     telemetry.publish(result.cloud);
   }
   for (auto& result : perception.takeHeat()) {
@@ -207,6 +211,9 @@ void Robot::Impl::keepBooks(Stamp now) {
   }
   report.observe(fsm);
   report.setTotals(world.state().sprayed_l_est, world.state().resets);
+  const BaseTracking tracking = base.tracking();
+  report.addTrack({tracked.stamp, tracked.X_map_base, tracking.X_odom_base,
+                   tracked.health != PoseHealth::Lost, localizer.submap() == Submap::Indoor});
   if (fsm.terminal && !ended.load()) {
     succeeded.store(fsm.success);
     ended.store(true);
@@ -268,6 +275,7 @@ Robot::~Robot() {
 bool Robot::missionEnded() const { return impl_->ended.load(); }
 bool Robot::missionSucceeded() const { return impl_->succeeded.load(); }
 std::string Robot::reportJson(Stamp now) const { return impl_->report.toJson(now); }
+const std::vector<float>& Robot::locateCosts() const { return impl_->locate_s; }
 const BaseController& Robot::base() const { return impl_->base; }
 const PumpController& Robot::pumps() const { return impl_->pumps; }
 

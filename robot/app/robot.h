@@ -47,6 +47,9 @@ class Robot {
   /// The mission's report as JSON. Call when no tick runs any more.
   [[nodiscard]] std::string reportJson(Stamp now) const;
 
+  /// Wall time of each scan that was located, seconds. Call when no tick runs any more.
+  [[nodiscard]] const std::vector<float>& locateCosts() const;
+
   [[nodiscard]] const BaseController& base() const;
   [[nodiscard]] const PumpController& pumps() const;
 

@@ -88,6 +88,7 @@ struct Robot::Impl {
   std::uint32_t resets_seen = 0;
   std::optional<Stamp> mission_start;
   std::uint64_t status_seq = 0;
+  std::vector<float> locate_s;  ///< wall time of each scan matched, for the timing report
   bool storage_ok = true;
   bool resume_pending = false;
   std::optional<Stamp> carried;  ///< the last reset, until the first scan has been matched

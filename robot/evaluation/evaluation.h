@@ -11,8 +11,10 @@ namespace kiln {
 struct SweepOptions {
   int first_seed = 1;
   int last_seed = 20;
-  int jobs = 1;     ///< runs side by side; 1 for an honest real_time_factor
-  std::string out;  ///< where a calibration writes its result
+  int jobs = 1;              ///< runs side by side; 1 for an honest real_time_factor
+  std::string out;           ///< where a calibration writes its result
+  std::string world;         ///< world file; empty = the evaluation's own
+  std::string localization;  ///< method for kiln-robotd; empty = its config's
 };
 
 /// One named evaluation of scenario.md section 7 or a calibration.
@@ -25,6 +27,7 @@ struct Evaluation {
 [[nodiscard]] const std::vector<Evaluation>& evaluations();
 
 [[nodiscard]] Result<EvaluationResult> evaluateFire(const SweepOptions& options);
+[[nodiscard]] Result<EvaluationResult> evaluateLocalization(const SweepOptions& options);
 [[nodiscard]] Result<EvaluationResult> evaluateFallback(const SweepOptions& options);
 [[nodiscard]] Result<EvaluationResult> evaluateStop(const SweepOptions& options);
 [[nodiscard]] Result<EvaluationResult> calibrateSpray(const SweepOptions& options);

@@ -36,6 +36,7 @@ void judge(Figure& figure, const std::string& evaluation, const std::vector<Goal
 /// An evaluation's outcome: printed as a table, written as JSON.
 struct EvaluationResult {
   std::string name;
+  std::string goal_set;  ///< whose goals it is held against; empty = those of `name`
   std::vector<Figure> figures;
   std::string runs_json = "[]";  ///< a JSON list, one object a run
   std::string notes;

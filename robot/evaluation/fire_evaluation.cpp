@@ -1,48 +1,15 @@
 #include <algorithm>
-#include <atomic>
-#include <cmath>
-#include <mutex>
-#include <thread>
 
 #include <nlohmann/json.hpp>
 
 #include "robot/evaluation/evaluation.h"
 #include "robot/evaluation/heat_accuracy.h"
-#include "robot/evaluation/mission_run.h"
+#include "robot/evaluation/mission_sweep.h"
 
 namespace kiln {
 namespace {
 
 using nlohmann::json;
-
-struct SeedResult {
-  int seed = 0;
-  Result<MissionRun> run = MissionRun{};
-};
-
-/// Runs all seeds, `jobs` at a time; results in seed order whatever the timing.
-std::vector<SeedResult> runSeeds(const SweepOptions& options) {
-  const int count = std::max(0, options.last_seed - options.first_seed + 1);
-  std::vector<SeedResult> results(static_cast<std::size_t>(count));
-  std::atomic<int> next{0};
-  std::vector<std::jthread> workers;
-  for (int worker = 0; worker < std::max(1, options.jobs); ++worker) {
-    workers.emplace_back([&] {
-      for (int i = next++; i < count; i = next++) {
-        MissionRunOptions run;
-        run.seed = options.first_seed + i;
-        run.trace = true;
-        results[static_cast<std::size_t>(i)] = {run.seed, runMission(run)};
-        const auto& result = results[static_cast<std::size_t>(i)];
-        fmt::print(
-            stderr, "seed {:>3}: {}\n", run.seed,
-            result.run ? (result.run->success ? "ok" : "FAILED") : result.run.error().message);
-      }
-    });
-  }
-  workers.clear();  // joins
-  return results;
-}
 
 json describeRun(const SeedResult& result) {
   if (!result.run)
@@ -76,6 +43,8 @@ Result<EvaluationResult> evaluateFire(const SweepOptions& options) {
   }
   EvaluationResult out;
   out.name = "fire";
+  const bool flat = options.world.find("fire_flat") != std::string::npos;
+  if (flat) out.goal_set = "fire_flat";
   out.figures = {
       {"success_rate", successes / std::max<double>(1, static_cast<double>(results.size())), "", "",
        true},
@@ -94,9 +63,10 @@ Result<EvaluationResult> evaluateFire(const SweepOptions& options) {
   };
   out.runs_json = runs.dump();
   out.notes = fmt::format(
-      "{} seeds, {} at a time; {} heat estimates within 1.0 m and 10 deg. baseline = the paper's "
+      "{} world, {} seeds, {} at a time; {} heat estimates within 1.0 m and 10 deg. baseline = the "
+      "paper's "
       "bounding-box distance on the same frames.",
-      results.size(), std::max(1, options.jobs), heat.range_m.size());
+      flat ? "flat" : "full", results.size(), std::max(1, options.jobs), heat.range_m.size());
   return out;
 }
 

@@ -65,7 +65,7 @@ int runEvaluation(const Evaluation& evaluation, const SweepOptions& options,
   if (!result) return fail(result.error());
   bool all_ok = true;
   for (Figure& figure : result->figures) {
-    judge(figure, result->name, *goal_list);
+    judge(figure, result->goal_set.empty() ? result->name : result->goal_set, *goal_list);
     all_ok &= figure.ok;
   }
   fmt::print("{}", formatTable(*result));
@@ -101,6 +101,8 @@ int main(int argc, char** argv) {
       ->check(CLI::ExistingFile);
   run->add_option("--fault", run_options.world_args,
                   "fault to inject, as kiln-sim --fault takes it");
+  run->add_option("--robot-arg", run_options.robot_args,
+                  "passed on to kiln-robotd, e.g. --robot-arg=--localization=odometry");
   run->add_option("--wall-limit-s", run_options.wall_limit_s, "end a run that takes longer")
       ->default_val(1200.0);
 
@@ -114,6 +116,9 @@ int main(int argc, char** argv) {
     sub->add_option("--seeds", seeds, "A-B");
     sub->add_option("--json", json_path, "write figures and runs as JSON");
     sub->add_option("--jobs", jobs, "runs side by side")->check(CLI::Range(1, 64));
+    sub->add_option("--world", sweep.world, "world file (default: the evaluation's own)")
+        ->check(CLI::ExistingFile);
+    sub->add_option("--localization", sweep.localization, "surfel_map, walls or odometry");
     sub->add_option("--out", sweep.out, "where a calibration writes its result");
     sweeps.emplace_back(sub, &evaluation);
   }
@@ -135,6 +140,8 @@ int main(int argc, char** argv) {
     if (!*sub) continue;
     SweepOptions options = evaluation->defaults;
     options.out = sweep.out;
+    options.world = sweep.world;
+    options.localization = sweep.localization;
     if (jobs > 0) options.jobs = jobs;
     if (!parseSeeds(seeds, options))
       return fail({ErrorCode::InvalidInput, "--seeds must be A-B with A <= B, e.g. 1-20"});

@@ -142,6 +142,8 @@ Result<MissionRun> runMission(const MissionRunOptions& options) {
   }
   json robot_and_truth{{"robot", *robot_report}, {"truth", *truth}};
   run.robot_json = robot_and_truth.dump();
+  const json timing = json::parse(readAll(folder.file("robot.json.timing")), nullptr, false);
+  if (timing.is_object()) run.locate_s = timing.value("locate_s", std::vector<double>{});
   if (options.trace) run.trace_jsonl = readAll(folder.file("trace.jsonl"));
   return run;
 }

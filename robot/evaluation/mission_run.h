@@ -29,6 +29,7 @@ struct MissionRun {
   double simulated_s = 0.0;
   double sim_cpu_s = 0.0;
   double robot_cpu_s = 0.0;
+  std::vector<double> locate_s;  ///< wall time of each scan that the robot located
   [[nodiscard]] double realTimeFactor() const { return wall_s > 0 ? simulated_s / wall_s : 0.0; }
 };
 

@@ -1,0 +1,35 @@
+#include "robot/evaluation/mission_sweep.h"
+
+#include <algorithm>
+#include <atomic>
+#include <thread>
+
+namespace kiln {
+
+std::vector<SeedResult> runSeeds(const SweepOptions& options) {
+  const int count = std::max(0, options.last_seed - options.first_seed + 1);
+  std::vector<SeedResult> results(static_cast<std::size_t>(count));
+  std::atomic<int> next{0};
+  std::vector<std::jthread> workers;
+  for (int worker = 0; worker < std::max(1, options.jobs); ++worker) {
+    workers.emplace_back([&] {
+      for (int i = next++; i < count; i = next++) {
+        MissionRunOptions run;
+        run.seed = options.first_seed + i;
+        run.trace = true;
+        run.world = options.world;
+        if (!options.localization.empty())
+          run.robot_args = {"--localization", options.localization};
+        SeedResult& result = results[static_cast<std::size_t>(i)];
+        result = {run.seed, runMission(run)};
+        fmt::print(
+            stderr, "seed {:>3}: {}\n", run.seed,
+            result.run ? (result.run->success ? "ok" : "FAILED") : result.run.error().message);
+      }
+    });
+  }
+  workers.clear();  // joins
+  return results;
+}
+
+}  // namespace kiln

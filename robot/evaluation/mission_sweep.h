@@ -1,0 +1,19 @@
+#pragma once
+
+#include <vector>
+
+#include "robot/evaluation/evaluation.h"
+#include "robot/evaluation/mission_run.h"
+
+namespace kiln {
+
+struct SeedResult {
+  int seed = 0;
+  Result<MissionRun> run = MissionRun{};
+};
+
+/// Runs the fire mission on all seeds in lockstep, with the truth trace, `options.jobs` at a time;
+/// results in seed order whatever the timing.
+[[nodiscard]] std::vector<SeedResult> runSeeds(const SweepOptions& options);
+
+}  // namespace kiln
