@@ -7,6 +7,7 @@
 #include "common/core/atomic_file.h"
 #include "robot/evaluation/evaluation.h"
 #include "robot/evaluation/mission_run.h"
+#include "robot/evaluation/trajectory_figure.h"
 
 namespace {
 
@@ -19,9 +20,21 @@ int fail(const Error& error) {
   return kBadInput;
 }
 
-int runOneMission(const MissionRunOptions& options, const std::string& report) {
+Result<void> writeFigure(const MissionRun& run, const std::string& path) {
+  auto file = resourcePath("config/arena_kitchen.yaml");
+  if (!file) return tl::make_unexpected(file.error());
+  ArenaMap arena;
+  if (auto loaded = loadConfig(*file, arena); !loaded) return loaded;
+  return writeFileAtomically(path, trajectorySvg(run, arena));
+}
+
+int runOneMission(const MissionRunOptions& options, const std::string& report,
+                  const std::string& figure) {
   auto run = runMission(options);
   if (!run) return fail(run.error());
+  if (!figure.empty()) {
+    if (auto written = writeFigure(*run, figure); !written) return fail(written.error());
+  }
   if (!report.empty()) {
     if (auto written = writeFileAtomically(report, run->report_json); !written)
       return fail(written.error());
@@ -86,7 +99,7 @@ int main(int argc, char** argv) {
 
   MissionRunOptions run_options;
   run_options.lockstep = false;
-  std::string report;
+  std::string report, figure;
   auto* run = app.add_subcommand("run", "one mission; exit status 0 only on success");
   run->add_option("--mission", run_options.mission, "mission")
       ->default_val("fire")
@@ -97,6 +110,7 @@ int main(int argc, char** argv) {
   run->add_flag("--lockstep", run_options.lockstep,
                 "world and robot step together, as fast as the processor allows");
   run->add_option("--report", report, "deterministic JSON; wall time goes to FILE.timing");
+  run->add_option("--figure", figure, "draw the way planned, driven and true as SVG");
   run->add_option("--world", run_options.world, "world file (default: the mission's)")
       ->check(CLI::ExistingFile);
   run->add_option("--fault", run_options.world_args,
@@ -134,7 +148,8 @@ int main(int argc, char** argv) {
     for (const std::string& fault : run_options.world_args)
       faults.insert(faults.end(), {"--fault", fault});
     run_options.world_args = faults;
-    return runOneMission(run_options, report);
+    run_options.trace = !figure.empty();
+    return runOneMission(run_options, report, figure);
   }
   for (const auto& [sub, evaluation] : sweeps) {
     if (!*sub) continue;
