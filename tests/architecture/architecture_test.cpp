@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/architecture/include_rules.h"
+#include "tests/support/paths.h"
 
 namespace kiln::architecture {
 namespace {
@@ -36,7 +37,7 @@ class ArchitectureTest : public ::testing::Test {
                                                const std::string& text) const {
     return violations(table_, path, text);
   }
-  const std::filesystem::path root_ = KILN_SOURCE_DIR;
+  const std::filesystem::path root_ = kiln::sourceDir();
   RoomTable table_;
 };
 

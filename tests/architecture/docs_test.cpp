@@ -7,12 +7,14 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/paths.h"
+
 /// What the documents say about the tree must be so: files that they link, tests that they name.
 namespace kiln {
 namespace {
 
 namespace fs = std::filesystem;
-const fs::path kRoot = KILN_SOURCE_DIR;
+const fs::path kRoot = kiln::sourceDir();
 
 std::string read(const fs::path& path) {
   std::ifstream in(path);

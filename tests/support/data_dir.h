@@ -5,6 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "tests/support/paths.h"
+
 namespace kiln::testing {
 
 /// A file of the real sensor captures, which are not part of the project: below $KILN_DATA_DIR,
@@ -17,7 +19,7 @@ namespace kiln::testing {
   const char* set = std::getenv("KILN_DATA_DIR");
   const std::filesystem::path root =
       set != nullptr && *set != '\0' ? set
-                                     : std::filesystem::path(KILN_SOURCE_DIR) / "../shared/data";
+                                     : std::filesystem::path(kiln::sourceDir()) / "../shared/data";
   std::error_code ec;
   const std::filesystem::path path = root / relative;
   if (!std::filesystem::exists(path, ec)) return std::nullopt;

@@ -6,15 +6,14 @@
 #include <gtest/gtest.h>
 
 #include "robot/evaluation/child_process.h"
+#include "tests/support/paths.h"
 
 namespace kiln {
 namespace {
 
 using std::chrono::seconds;
 
-std::string program(const std::string& name) {
-  return std::string(KILN_BINARY_DIR) + "/bin/" + name;
-}
+std::string program(const std::string& name) { return kiln::binaryDir() + "/bin/" + name; }
 
 struct Outcome {
   int status = -1;

@@ -8,6 +8,7 @@
 #include "robot/evaluation/child_process.h"
 #include "robot/evaluation/mission_run.h"
 #include "robot/evaluation/truth.h"
+#include "tests/support/paths.h"
 
 namespace kiln {
 namespace {
@@ -15,13 +16,11 @@ namespace {
 using nlohmann::json;
 using std::chrono::seconds;
 
-std::string program(const std::string& name) {
-  return std::string(KILN_BINARY_DIR) + "/bin/" + name;
-}
+std::string program(const std::string& name) { return kiln::binaryDir() + "/bin/" + name; }
 
 TEST(FireMission, PutsTheFireOutAndReportsTheSameBytesTwice) {
   MissionRunOptions options;
-  options.programs = KILN_BINARY_DIR "/bin";
+  options.programs = kiln::binaryDir() + "/bin";
   const auto first = runMission(options);
   ASSERT_TRUE(first.has_value()) << first.error();
   EXPECT_TRUE(first->success) << first->report_json;

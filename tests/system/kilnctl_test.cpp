@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "common/core/check.h"
+#include "tests/support/paths.h"
 #include "tests/system/two_ends.h"
 
 extern char** environ;
@@ -22,8 +23,8 @@ using ::testing::HasSubstr;
 class Kilnctl {
  public:
   Kilnctl(const std::string& endpoint, std::vector<std::string> args) {
-    args.insert(args.begin(),
-                {KILN_BINARY_DIR "/bin/kilnctl", "--json", "--connect", endpoint, "--name", "ctl"});
+    args.insert(args.begin(), {kiln::binaryDir() + "/bin/kilnctl", "--json", "--connect", endpoint,
+                               "--name", "ctl"});
     std::vector<char*> argv;
     for (std::string& arg : args) argv.push_back(arg.data());
     argv.push_back(nullptr);

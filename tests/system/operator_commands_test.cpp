@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "robot/evaluation/live_system.h"
+#include "tests/support/paths.h"
 
 namespace kiln {
 namespace {
@@ -15,7 +16,7 @@ using View = ScriptedOperator::View;
 class OperatorCommands : public testing::Test {
  protected:
   void SetUp() override {
-    auto live = LiveSystem::start(3, {}, {}, KILN_BINARY_DIR "/bin");
+    auto live = LiveSystem::start(3, {}, {}, kiln::binaryDir() + "/bin");
     ASSERT_TRUE(live.has_value()) << live.error();
     live_ = std::move(*live);
     auto person = live_->connectOperator("Ann");

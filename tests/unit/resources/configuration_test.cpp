@@ -12,6 +12,7 @@
 #include "robot/sim/world_config.h"
 #include "robot/skills/aim/spray_calibration.h"
 #include "robot/skills/macro.h"
+#include "tests/support/paths.h"
 
 /// Every YAML file that is shipped can be read by the program that it is for, and the reference of
 /// all keys in the documents is the one that the structs give.
@@ -19,7 +20,7 @@ namespace kiln {
 namespace {
 
 namespace fs = std::filesystem;
-const fs::path kResources = fs::path(KILN_SOURCE_DIR) / "resources";
+const fs::path kResources = fs::path(kiln::sourceDir()) / "resources";
 
 template <class T>
 Result<void> readAs(const fs::path& path) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/fake_devices.h"
+#include "tests/support/paths.h"
 
 namespace kiln {
 namespace {
@@ -13,7 +14,8 @@ class TeleopTest : public testing::Test {
  protected:
   static RobotGeometry loadRobot() {
     RobotGeometry robot;
-    EXPECT_TRUE(loadConfig(KILN_SOURCE_DIR "/resources/robot_model/bob.yaml", robot).has_value());
+    EXPECT_TRUE(
+        loadConfig(kiln::sourceDir() + "/resources/robot_model/bob.yaml", robot).has_value());
     return robot;
   }
   /// Control ticks of 8 ms with the fake devices in step.

@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/support/paths.h"
+
 namespace kiln {
 namespace {
 
@@ -37,7 +39,7 @@ TEST(Figures, AFigureThatWasNotMeasuredMissesItsGoal) {
 }
 
 TEST(Figures, GoalsFileHoldsTheFixedIds) {
-  const auto goals = loadGoals(KILN_SOURCE_DIR "/tests/bench/goals.yaml");
+  const auto goals = loadGoals(kiln::sourceDir() + "/tests/bench/goals.yaml");
   ASSERT_TRUE(goals.has_value()) << goals.error();
   EXPECT_EQ(goals->front().evaluation, "fire");
   EXPECT_EQ(goals->front().id, "success_rate");

@@ -7,6 +7,7 @@
 
 #include "robot/sim/device_wire.h"
 #include "robot/sim/truth_report.h"
+#include "tests/support/paths.h"
 
 namespace kiln::sim {
 namespace {
@@ -257,8 +258,8 @@ TEST_F(WorldTest, ServoTargetsUnderWayAtAResetAreDroppedAndLaterJumpsStillStop) 
 
 /// Ten seconds with everything on, as bytes.
 std::string record(std::uint64_t seed) {
-  auto world = World::create(
-      *WorldConfig::load(std::string(KILN_SOURCE_DIR) + "/resources/worlds/fire.yaml"), seed);
+  auto world =
+      World::create(*WorldConfig::load(kiln::sourceDir() + "/resources/worlds/fire.yaml"), seed);
   std::string out;
   WorldCommands c;
   c.sensors = SensorRequest{true, true, false};

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/paths.h"
+
 namespace kiln {
 namespace {
 
@@ -14,7 +16,7 @@ class RouteTest : public testing::Test {
  protected:
   void SetUp() override {
     const auto loaded =
-        loadConfig(std::string(KILN_SOURCE_DIR) + "/resources/config/arena_kitchen.yaml", arena);
+        loadConfig(kiln::sourceDir() + "/resources/config/arena_kitchen.yaml", arena);
     ASSERT_TRUE(loaded.has_value()) << loaded.error();
   }
   ArenaMap arena;

@@ -5,13 +5,15 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/paths.h"
+
 namespace kiln {
 namespace {
 
 template <class T>
 T loaded(const std::string& file) {
   T out;
-  const auto result = loadConfig(std::string(KILN_SOURCE_DIR) + "/resources/" + file, out);
+  const auto result = loadConfig(kiln::sourceDir() + "/resources/" + file, out);
   EXPECT_TRUE(result.has_value()) << (result ? std::string() : result.error().message);
   return out;
 }

@@ -4,19 +4,20 @@
 
 #include "common/config/config_archive.h"
 #include "robot/scene/arena_map.h"
+#include "tests/support/paths.h"
 
 namespace kiln {
 
 /// The robot and the kitchen as the shipped files describe them.
 inline RobotGeometry loadBob() {
   RobotGeometry robot;
-  const auto loaded = loadConfig(KILN_SOURCE_DIR "/resources/robot_model/bob.yaml", robot);
+  const auto loaded = loadConfig(kiln::sourceDir() + "/resources/robot_model/bob.yaml", robot);
   EXPECT_TRUE(loaded.has_value()) << loaded.error();
   return robot;
 }
 inline ArenaMap loadKitchen() {
   ArenaMap arena;
-  const auto loaded = loadConfig(KILN_SOURCE_DIR "/resources/config/arena_kitchen.yaml", arena);
+  const auto loaded = loadConfig(kiln::sourceDir() + "/resources/config/arena_kitchen.yaml", arena);
   EXPECT_TRUE(loaded.has_value()) << loaded.error();
   return arena;
 }
