@@ -62,7 +62,9 @@ TEST(Figures, JsonHasTheContractsKeys) {
 }
 
 TEST(Figures, RefusesToWriteOnAFullDisk) {
-  const auto written = writeJson({"fire", {}, "[]", ""}, "/proc/kiln.json");
+  EvaluationResult result;
+  result.name = "fire";
+  const auto written = writeJson(result, "/proc/kiln.json");
   ASSERT_FALSE(written.has_value());
   EXPECT_EQ(written.error().code, ErrorCode::Storage);
 }
