@@ -43,7 +43,7 @@ TEST(Figures, GoalsFileHoldsTheFixedIds) {
   ASSERT_TRUE(goals.has_value()) << goals.error();
   EXPECT_EQ(goals->front().evaluation, "fire");
   EXPECT_EQ(goals->front().id, "success_rate");
-  EXPECT_DOUBLE_EQ(goals->front().limit, 0.95);
+  EXPECT_DOUBLE_EQ(goals->front().limit, 0.98);
 }
 
 TEST(Figures, JsonHasTheContractsKeys) {
