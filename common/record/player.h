@@ -52,6 +52,8 @@ class Player {
   [[nodiscard]] Stamp position() const { return clock_.now(); }
   [[nodiscard]] const Clock& clock() const { return clock_; }
   [[nodiscard]] const RecordReader& reader() const { return reader_; }
+  /// Its topics from the beginning, unpaced.
+  [[nodiscard]] RecordCursor messages() const { return reader_.messages(topics_, start_); }
 
   /// Delivers what is due, in order; at most `limit` messages, so that a slow consumer slows the
   /// playback down instead of falling behind it. @return how many. Error: a chunk was damaged and

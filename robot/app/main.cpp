@@ -30,6 +30,9 @@ struct Arguments {
   std::string listen = "tcp://127.0.0.1:7300";
   std::string report;
   std::string localization;
+  std::string record_dir, replay;
+  double replay_speed = 1.0;
+  bool record = false;
   double heat_threshold_c = 0.0;
   bool exit_when_done = false;
   bool print_config = false;
@@ -63,6 +66,12 @@ void addOptions(CLI::App& app, Arguments& a) {
                "end when the mission has ended; exit status 0 on success");
   app.add_option("--report", a.report,
                  "write the mission report (JSON) at the end; wall times go to FILE.timing");
+  app.add_option("--record", a.record_dir,
+                 "record this run, into this folder (default: recordings in the state folder)")
+      ->expected(0, 1);
+  app.add_option("--replay", a.replay, "run perception again on a recorded run (.mcap), then end");
+  app.add_option("--replay-speed", a.replay_speed, "0.1 to 10; 0: as fast as possible")
+      ->check(CLI::Range(0.0, 10.0));
   app.add_option("--state-dir", a.robot.state_dir,
                  "checkpoint, pose and lock; default: $XDG_STATE_HOME/kiln or ~/.local/state/kiln");
   app.add_option("--listen", a.listen,
@@ -113,6 +122,7 @@ struct Runtime {
   std::unique_ptr<SimLink> sim;
   AbsentDevices absent;
   RecordedSensors recorded;
+  std::unique_ptr<RecordedRun> run;
 
   [[nodiscard]] const Clock& clock() const {
     return manual ? static_cast<const Clock&>(manual_clock)
@@ -126,7 +136,7 @@ struct Runtime {
 };
 
 Result<void> Runtime::open(const Arguments& a) {
-  if (a.robot.lockstep) {
+  if (a.robot.lockstep || !a.replay.empty()) {
     manual = std::make_unique<ManualExecutor>(manual_clock);
   } else {
     threads = std::make_unique<ThreadExecutor>(steady_clock, 2);
@@ -141,10 +151,17 @@ Result<void> Runtime::open(const Arguments& a) {
     sim = std::move(*connected);
     if (manual) manual_clock.advanceTo(sim->world().now);
   }
+  if (!a.replay.empty()) {
+    auto opened = RecordedRun::open(a.replay, steady_clock);
+    if (!opened) return tl::make_unexpected(opened.error());
+    run = std::move(*opened);
+    manual_clock.advanceTo(run->player().start());
+  }
   return recorded.open(a.lidar, a.thermal, executor());
 }
 
 Devices Runtime::devices() {
+  if (run) return run->devices();
   if (!sim) {
     Devices none{absent.arm, absent.base, absent.pumps, absent.arena};
     none.lidar = recorded.lidar();
@@ -167,6 +184,22 @@ Result<std::unique_ptr<OperatorLink>> openLink(const Arguments& a, const RobotSe
   config.robot_name = settings.name;
   return OperatorLink::open(config, {KILN_VERSION, a.robot.environment, a.robot.mission_uuid},
                             clock, stop);
+}
+
+std::unique_ptr<RunRecorder> makeRecorder(const Arguments& a, RobotSettings& settings,
+                                          const Clock& clock, OperatorLink& link) {
+  RunRecorder::Run run;
+  run.folder = a.record_dir.empty() ? a.robot.state_dir + "/recordings" : a.record_dir;
+  run.robot_name = settings.name;
+  run.version = KILN_VERSION;
+  run.mission_uuid = a.robot.mission_uuid;
+  run.environment = a.robot.environment == Environment::Sim ? "sim" : "replay";
+  run.config_yaml = dumpYaml(ConfigNode{[&](ConfigArchive& node) { settings.visit(node); }});
+  run.lossless = a.robot.lockstep || !a.replay.empty();
+  auto recorder = std::make_unique<RunRecorder>(settings.recording, std::move(run), clock);
+  link.setTap(recorder->tap());
+  if (a.record) recorder->set(true);
+  return recorder;
 }
 
 /// A bug of ours ends in the safe stop: the latch makes the control thread brake and cut the pumps
@@ -196,11 +229,13 @@ int printSettings(const Arguments& a) {
 
 int run(Arguments a) {
   if (a.print_config || a.print_reference) return printSettings(a);
-  if (a.sim.empty() && a.lidar.empty() && a.thermal.empty()) {
+  if (a.sim.empty() && a.lidar.empty() && a.thermal.empty() && a.replay.empty()) {
     return fail({ErrorCode::InvalidInput,
-                 "nothing to run on: give --sim ENDPOINT (a running kiln-sim), or --lidar FILE and "
-                 "--thermal FOLDER"});
+                 "nothing to run on: give --sim ENDPOINT (a running kiln-sim), --replay FILE, or "
+                 "--lidar FILE and --thermal FOLDER"});
   }
+  if (!a.replay.empty() && (!a.sim.empty() || !a.lidar.empty() || !a.thermal.empty()))
+    return fail({ErrorCode::InvalidInput, "--replay stands alone: leave out the other sources"});
   if (a.robot.lockstep && a.sim.empty())
     return fail({ErrorCode::InvalidInput, "--lockstep needs --sim ENDPOINT"});
   auto settings = loadSettings(a);
@@ -212,20 +247,26 @@ int run(Arguments a) {
   Runtime runtime;
   if (auto opened = runtime.open(a); !opened) return fail(opened.error());
   a.robot.version = KILN_VERSION;
+  if (runtime.run) a.robot.start_pose = runtime.run->startPose();
   a.robot.environment = runtime.sim ? Environment::Sim : Environment::Replay;
   StopLatch stop;
   const CheckFailureGuard guard(stop, runtime.clock());
   // A lockstep run must give the same report each time, so its mission is named by its world.
-  a.robot.mission_uuid =
-      a.robot.lockstep ? fmt::format("lockstep-{}", runtime.sim->world().seed) : randomUuid();
+  a.robot.mission_uuid = runtime.sim && a.robot.lockstep
+                             ? fmt::format("lockstep-{}", runtime.sim->world().seed)
+                             : randomUuid();
   auto link = openLink(a, *settings, runtime.clock(), stop);
   if (!link) return fail(link.error());
+  const auto recorder = makeRecorder(a, *settings, runtime.clock(), **link);
+  a.robot.recorder = recorder.get();
   auto robot = Robot::create(*settings, a.robot, runtime.devices(), runtime.clock(),
                              runtime.executor(), link->get(), stop);
   if (!robot) return fail(robot.error());
 
   const auto done = [&] { return a.exit_when_done && (*robot)->missionEnded(); };
-  if (runtime.manual) {
+  if (runtime.run) {
+    runReplay(*runtime.run, *runtime.manual, a.replay_speed, done);
+  } else if (runtime.manual) {
     if (auto ran = runLockstep(*runtime.sim, runtime.manual_clock, *runtime.manual,
                                std::chrono::milliseconds(8), done);
         !ran) {
@@ -254,6 +295,7 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", std::string("kiln-robotd ") + KILN_VERSION);
   addOptions(app, arguments);
   CLI11_PARSE(app, argc, argv);
+  arguments.record = app.count("--record") > 0;
   setLogLevel(arguments.log_level);
   installSignalHandlers();
   return run(arguments);

@@ -64,6 +64,10 @@ struct OperatorLink::Impl {
   [[nodiscard]] std::string objection(const std::string& from, const Hello& hello) const;
   [[nodiscard]] bool heard(const std::string& from, Stamp now, OperatorPeer* seen);
 
+  void publish(Topic topic, LinkTap::Encode encode) {
+    if (tap.published) tap.published(topic, encode, clock.now());
+    end->publish(topic, std::move(encode));
+  }
   void reply(const std::string& to, const ToStation& message) {
     end->send(to, wire::encode(message));
   }
@@ -71,6 +75,8 @@ struct OperatorLink::Impl {
   Config config;
   Identity identity;  // mission_uuid guarded by mutex
   const Clock& clock;
+  LinkTap tap;
+  std::atomic<bool> keep_pictures{false};
   BoundedQueue<ReceivedCommand> commands;
   mutable std::mutex mutex;
   std::map<std::string, Peer> peers;  // guarded by mutex
@@ -261,9 +267,19 @@ void OperatorLink::Impl::onTick() {
 // --- any thread
 // ------------------------------------------------------------------------------------------------------
 
-std::vector<ReceivedCommand> OperatorLink::takeCommands() { return impl_->commands.drain(); }
+std::vector<ReceivedCommand> OperatorLink::takeCommands() {
+  auto commands = impl_->commands.drain();
+  if (impl_->tap.command) {
+    for (const ReceivedCommand& received : commands)
+      impl_->tap.command(received.command, received.received);
+  }
+  return commands;
+}
 std::vector<StopEvent> OperatorLink::takeStops() { return impl_->stop_receiver->takeStops(); }
-void OperatorLink::acknowledge(const CommandAck& ack) { impl_->reply(ack.client_id, ack); }
+void OperatorLink::acknowledge(const CommandAck& ack) {
+  if (impl_->tap.ack) impl_->tap.ack(ack, impl_->clock.now());
+  impl_->reply(ack.client_id, ack);
+}
 
 std::vector<OperatorPeer> OperatorLink::operators() const {
   const auto now = monotonicNow();
@@ -281,45 +297,47 @@ void OperatorLink::setMissionUuid(const std::string& uuid) {
   impl_->identity.mission_uuid = uuid;
 }
 
+void OperatorLink::setTap(LinkTap tap) { impl_->tap = std::move(tap); }
+void OperatorLink::keepPictures(bool keep) { impl_->keep_pictures.store(keep); }
+
 void OperatorLink::publish(RobotStatus status) {
-  impl_->end->publish(Topic::RobotStatus,
-                      [value = std::move(status)] { return wire::encode(value); });
+  impl_->publish(Topic::RobotStatus, [value = std::move(status)] { return wire::encode(value); });
 }
 void OperatorLink::publish(FsmInfo info) {
-  impl_->end->publish(Topic::FsmInfo, [value = std::move(info)] { return wire::encode(value); });
+  impl_->publish(Topic::FsmInfo, [value = std::move(info)] { return wire::encode(value); });
 }
 void OperatorLink::publish(FsmStatus status) {
-  impl_->end->publish(Topic::FsmStatus,
-                      [value = std::move(status)] { return wire::encode(value); });
+  impl_->publish(Topic::FsmStatus, [value = std::move(status)] { return wire::encode(value); });
 }
 void OperatorLink::publish(Scene scene) {
-  impl_->end->publish(Topic::Scene, [value = std::move(scene)] { return wire::encode(value); });
+  impl_->publish(Topic::Scene, [value = std::move(scene)] { return wire::encode(value); });
 }
 void OperatorLink::publish(std::vector<MacroInfo> macros) {
-  impl_->end->publish(Topic::Macros, [value = std::move(macros)] { return wire::encode(value); });
+  impl_->publish(Topic::Macros, [value = std::move(macros)] { return wire::encode(value); });
 }
 void OperatorLink::publish(LogBatch batch) {
-  impl_->end->publish(Topic::Log, [value = std::move(batch)] { return wire::encode(value); });
+  impl_->publish(Topic::Log, [value = std::move(batch)] { return wire::encode(value); });
 }
 void OperatorLink::publish(PointCloudPtr cloud) {
-  impl_->end->publish(Topic::Cloud,
-                      [value = std::move(cloud), resolution_m = impl_->config.cloud_resolution_m] {
-                        return wire::encode(*value, resolution_m);
-                      });
+  impl_->publish(Topic::Cloud,
+                 [value = std::move(cloud), resolution_m = impl_->config.cloud_resolution_m] {
+                   return wire::encode(*value, resolution_m);
+                 });
 }
 void OperatorLink::publish(ThermalImagePtr image) {
-  impl_->end->publish(Topic::Thermal, [value = std::move(image)] { return wire::encode(*value); });
+  impl_->publish(Topic::Thermal, [value = std::move(image)] { return wire::encode(*value); });
 }
 void OperatorLink::publish(HeatDetections detections) {
-  impl_->end->publish(Topic::Heat, [value = std::move(detections)] { return wire::encode(value); });
+  impl_->publish(Topic::Heat, [value = std::move(detections)] { return wire::encode(value); });
 }
 void OperatorLink::publish(JpegImagePtr image) {
   const Topic topic =
       image->frame == frames::kOperatorCamera ? Topic::OperatorCamera : Topic::HeadCamera;
-  impl_->end->publish(topic, [value = std::move(image)] { return wire::encode(*value); });
+  impl_->publish(topic, [value = std::move(image)] { return wire::encode(*value); });
 }
 
 bool OperatorLink::wanted(const std::string& jpeg_frame) const {
+  if (impl_->keep_pictures.load()) return true;
   return impl_->end->subscribed(jpeg_frame == frames::kOperatorCamera ? Topic::OperatorCamera
                                                                       : Topic::HeadCamera);
 }

@@ -15,6 +15,7 @@
 #include "common/model/scene.h"
 #include "common/model/sensor.h"
 #include "common/model/status.h"
+#include "robot/app/link_tap.h"
 #include "robot/safety/operator_peer.h"
 #include "robot/safety/stop_latch.h"
 
@@ -64,6 +65,8 @@ class OperatorLink {
   [[nodiscard]] std::vector<StopEvent> takeStops();
   [[nodiscard]] std::vector<OperatorPeer> operators() const;
   void setMissionUuid(const std::string& uuid);
+  /// Lets somebody hear everything from now on. Call it before anything is published.
+  void setTap(LinkTap tap);
 
   // --- telemetry
   // -------------------------------------------------------------------------------------------------
@@ -77,7 +80,9 @@ class OperatorLink {
   void publish(ThermalImagePtr image);
   void publish(HeatDetections detections);
   void publish(JpegImagePtr image);  ///< frame "rgb" or "operator_camera"
-  /// Somebody subscribes to pictures of this frame: encode JPEG only then.
+  /// Pictures are taken though no station watches (for the recording).
+  void keepPictures(bool keep);
+  /// Somebody wants pictures of this frame: encode JPEG only then.
   [[nodiscard]] bool wanted(const std::string& jpeg_frame) const;
 
   /// By topic, plus "commands" and "acks".

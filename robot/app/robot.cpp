@@ -64,28 +64,23 @@ Robot::Impl::Impl(const RobotSettings& settings_in, const RobotOptions& options_
              std::move(macros_in)),
       teleop(settings.teleop, robot, arena, base, arm, pumps),
       authority(settings.authority),
-      control({mission,
-               teleop,
-               macros,
-               alarms,
-               stop,
-               devices.arm,
-               arm,
-               devices.arena,
-               [this] { return pose(); },
-               [this] { return positionLost(); },
-               {}}),
+      control({mission, teleop, macros, alarms, stop, devices.arm, arm, devices.arena,
+               [this] { return pose(); }, [this] { return positionLost(); },
+               options.recorder ? [recorder = options.recorder](bool on) { recorder->set(on); }
+                                : std::function<void(bool)>()}),
       telemetry({10.0, 10.0, 5.0, settings.camera_rate_hz, settings.jpeg_quality}, link, executor),
       report(options.mission, clock.now()) {}
 
 void Robot::Impl::start(Executor& executor) {
   const Stamp now = clock.now();
   log_sink = addLogSink([this](const LogRecord& record) { telemetry.onLog(record, clock.now()); });
-  localizer.reset(arena.start.pose(), now);
+  localizer.reset(options.start_pose.value_or(arena.start.pose()), now);
   resets_seen = devices.resets();
   if (devices.lidar)
-    warnIfFailed(
-        devices.lidar->start([this](PointCloudPtr scan) { perception.onScan(std::move(scan)); }));
+    warnIfFailed(devices.lidar->start([this](PointCloudPtr scan) {
+      if (options.recorder) options.recorder->scan(scan);
+      perception.onScan(std::move(scan));
+    }));
   if (devices.thermal)
     warnIfFailed(devices.thermal->start(
         [this](ThermalImagePtr image) { perception.onThermal(std::move(image)); }));
@@ -114,6 +109,7 @@ void Robot::Impl::missionTick(Stamp now) {
   keepBooks(now);
   raiseAlarms(now);
   publish(now);
+  record(now);
 }
 
 void Robot::Impl::readSensors(Stamp now) {

@@ -12,6 +12,8 @@
 
 namespace kiln {
 
+class RunRecorder;
+
 /// How this run of the daemon is meant; from the command line.
 struct RobotOptions {
   std::string mission = "fire";
@@ -22,6 +24,8 @@ struct RobotOptions {
   std::string state_dir;  ///< checkpoint and pose; empty = keep nothing
   std::string version;
   Environment environment = Environment::Sim;
+  std::optional<Pose2> start_pose;  ///< where the robot stands; nullopt: where the arena says
+  RunRecorder* recorder = nullptr;  ///< nullptr: this robot cannot record; outlives the robot
 };
 
 /// The composition root: builds every part of one robot and registers its rate groups with the

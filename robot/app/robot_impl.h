@@ -8,6 +8,7 @@
 #include "robot/app/mission_control.h"
 #include "robot/app/mission_report.h"
 #include "robot/app/robot.h"
+#include "robot/app/run_recorder.h"
 #include "robot/app/telemetry_hub.h"
 #include "robot/safety/authority.h"
 
@@ -31,6 +32,7 @@ struct Robot::Impl {
   void recordEstimate(Stamp image, const Eigen::Isometry3d& X_map_thermal);
   void raiseAlarms(Stamp now);
   void publish(Stamp now);
+  void record(Stamp now);
   void runCameraOnDemand();
   [[nodiscard]] RobotStatus status(Stamp now) const;
   [[nodiscard]] Scene scene(Stamp now) const;
@@ -89,6 +91,7 @@ struct Robot::Impl {
   std::optional<Stamp> mission_start;
   std::uint64_t status_seq = 0;
   std::vector<float> locate_s;  ///< wall time of each scan matched, for the timing report
+  std::uint64_t recorded_ticks = 0;
   bool storage_ok = true;
   bool resume_pending = false;
   std::optional<Stamp> carried;  ///< the last reset, until the first scan has been matched

@@ -5,6 +5,7 @@
 #include "robot/app/localization_settings.h"
 #include "robot/app/perception_jobs.h"
 #include "robot/app/preflight.h"
+#include "robot/app/run_recorder.h"
 #include "robot/app/teleop.h"
 #include "robot/missions/fire/fire_mission.h"
 #include "robot/perception/thermal/heat_localizer.h"
@@ -40,6 +41,7 @@ struct RobotSettings {
   MacroRunnerConfig macros;
   Teleop::Config teleop;
   PreflightLimits preflight;
+  RunRecorder::Config recording;
   void visit(ConfigArchive& a);
 };
 

@@ -52,6 +52,10 @@ void Robot::Impl::raiseAlarms(Stamp now) {
              preflightInputs(now).battery_v > 1.0 &&
                  preflightInputs(now).battery_v < settings.preflight.battery_min_v,
              AlarmLevel::Caution, "Battery low", "finish and change the battery", now);
+  const std::string not_recording = options.recorder ? options.recorder->status().problem : "";
+  alarms.set("recording", !not_recording.empty(), AlarmLevel::Caution,
+             "Recording has ended: " + not_recording,
+             "make room on the disk, then switch the recording on again", now);
 }
 
 bool Robot::Impl::atStandstill() const {
@@ -112,6 +116,7 @@ RobotStatus Robot::Impl::status(Stamp now) const {
   const PumpTracking water = pumps.tracking();
   s.water = {water.duty, water.current_a, water.tank_l_est, water.sprayed_l_est};
   s.macro = macros.status();
+  if (options.recorder) s.recording = options.recorder->status();
   s.speed_scale = teleop.speedScale();
   s.mission_elapsed_s = world.state().elapsedS(now);
   s.mission_limit_s = settings.mission_limit_s;
@@ -123,6 +128,7 @@ RobotStatus Robot::Impl::status(Stamp now) const {
     for (const OperatorPeer& peer : link->operators()) s.operators.push_back(peer.name);
   }
   s.drops.push_back({"perception", perception.droppedFrames()});
+  if (options.recorder) s.drops.push_back({"recorder", s.recording.dropped});
   return s;
 }
 
@@ -141,6 +147,8 @@ Scene Robot::Impl::scene(Stamp now) const {
 /// somebody watches.
 void Robot::Impl::runCameraOnDemand() {
   if (!devices.operator_camera || !link) return;
+  if (options.recorder)
+    link->keepPictures(options.recorder->config().pictures && options.recorder->on());
   const bool wanted = link->wanted(frames::kOperatorCamera);
   if (wanted == camera_runs) return;
   camera_runs = wanted;
