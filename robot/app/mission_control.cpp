@@ -109,6 +109,13 @@ CommandAck MissionControl::executeDiscrete(const Command& command, Stamp now) {
     parts_.macros.cancel("cancelled by " + command.operator_name);
     return done(command);
   }
+  if (const auto* pose = std::get_if<SetPose>(&body)) {
+    parts_.set_pose(pose->X_map_base);
+    logger("localization")
+        ->warn("{} set the pose: x {:.2f} m, y {:.2f} m, {:.0f} deg", command.operator_name,
+               pose->X_map_base.x_m, pose->X_map_base.y_m, pose->X_map_base.yaw_rad * 180.0 / M_PI);
+    return done(command);
+  }
   if (const auto* alarm = std::get_if<AcknowledgeAlarm>(&body)) {
     if (parts_.alarms.acknowledge(alarm->id)) return done(command);
     return answer(command, AckOutcome::Refused, "no_such_alarm",

@@ -30,7 +30,8 @@ class MissionControl {
     Arena& arena;
     std::function<Pose2()> pose;                 ///< newest X_map_base
     std::function<std::string()> position_lost;  ///< why the robot does not know where it is; or ""
-    std::function<void(bool on)> set_recording;  ///< empty: this robot cannot record
+    std::function<void(const Pose2& X_map_base)> set_pose;  ///< the operator's word
+    std::function<void(bool on)> set_recording;             ///< empty: this robot cannot record
   };
   explicit MissionControl(Parts parts) : parts_(parts) {}
 

@@ -69,9 +69,11 @@ Robot::Impl::Impl(const RobotSettings& settings_in, const RobotOptions& options_
       authority(settings.authority),
       control({mission, teleop, macros, alarms, stop, devices.arm, arm, devices.arena,
                [this] { return pose(); }, [this] { return positionLost(); },
+               [this](const Pose2& X_map_base) { localizer.reset(X_map_base, clock.now()); },
                options.recorder ? [recorder = options.recorder](bool on) { recorder->set(on); }
                                 : std::function<void(bool)>()}),
-      telemetry({10.0, 10.0, 5.0, settings.camera_rate_hz, settings.jpeg_quality}, link, executor),
+      telemetry({10.0, 10.0, 5.0, 1.0, settings.camera_rate_hz, settings.jpeg_quality}, link,
+                executor),
       report(options.mission, clock.now()) {}
 
 void Robot::Impl::start(Executor& executor) {

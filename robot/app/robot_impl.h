@@ -10,6 +10,7 @@
 #include "robot/app/robot.h"
 #include "robot/app/run_recorder.h"
 #include "robot/app/telemetry_hub.h"
+#include "robot/app/trajectory_log.h"
 #include "robot/safety/authority.h"
 
 namespace kiln {
@@ -36,6 +37,7 @@ struct Robot::Impl {
   void runCameraOnDemand();
   [[nodiscard]] RobotStatus status(Stamp now) const;
   [[nodiscard]] Scene scene(Stamp now) const;
+  [[nodiscard]] LocalizationStatus localizationStatus() const;
   [[nodiscard]] PreflightInputs preflightInputs(Stamp now) const;
   [[nodiscard]] bool atStandstill() const;
   [[nodiscard]] Pose2 pose() const { return tracked.X_map_base; }
@@ -82,6 +84,8 @@ struct Robot::Impl {
   MissionControl control;
   TelemetryHub telemetry;
   MissionReport report;
+  TrajectoryLog driven;
+  bool driven_grew = false;
   LogSinkHandle log_sink;
 
   std::vector<Check> checks;

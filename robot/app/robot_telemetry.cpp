@@ -132,6 +132,29 @@ RobotStatus Robot::Impl::status(Stamp now) const {
   return s;
 }
 
+LocalizationStatus Robot::Impl::localizationStatus() const {
+  LocalizationStatus s;
+  s.stamp = tracked.stamp;
+  s.health = tracked.health == PoseHealth::Good       ? LocalizationHealth::Good
+             : tracked.health == PoseHealth::Degraded ? LocalizationHealth::Degraded
+                                                      : LocalizationHealth::Lost;
+  s.reason = tracked.reason;
+  s.method = settings.localization.method;
+  if (settings.localization.method == "surfel_map") s.submap = toString(localizer.submap());
+  s.X_map_base = tracked.X_map_base_3d;
+  s.X_map_odom = tracked.X_map_odom;
+  s.covariance = tracked.covariance;
+  s.sigma_m = tracked.sigma_m;
+  s.sigma_yaw_rad = tracked.sigma_yaw_rad;
+  s.match_age_s = tracked.age_s;
+  s.inlier_fraction = tracked.inlier_fraction;
+  s.observable_directions = tracked.observable_directions;
+  s.matches = tracked.fixes;
+  s.rejected = tracked.rejected;
+  s.resets = static_cast<int>(resets_seen);
+  return s;
+}
+
 Scene Robot::Impl::scene(Stamp now) const {
   Scene scene;
   scene.stamp = now;
@@ -168,6 +191,13 @@ void Robot::Impl::publish(Stamp now) {
     telemetry.publish(status(now));
   }
   if (telemetry.sceneDue(now)) telemetry.publish(scene(now));
+  if (telemetry.localizationDue(now)) telemetry.publish(localizationStatus());
+  if (tracked.health != PoseHealth::Lost)
+    driven_grew |= driven.add(now, tracked.X_map_base, static_cast<int>(resets_seen));
+  if (driven_grew && telemetry.trajectoryDue(now)) {
+    telemetry.publish(driven.trajectory());
+    driven_grew = false;
+  }
   telemetry.flushLog(now);
 }
 

@@ -25,6 +25,7 @@ class TelemetryHub {
     double status_rate_hz = 10.0;
     double fsm_rate_hz = 10.0;
     double scene_rate_hz = 5.0;
+    double trajectory_rate_hz = 1.0;
     double picture_rate_hz = 10.0;
     int jpeg_quality = 75;
   };
@@ -35,6 +36,13 @@ class TelemetryHub {
   [[nodiscard]] bool statusDue(Stamp now) { return due(last_status_, config_.status_rate_hz, now); }
   [[nodiscard]] bool fsmDue(Stamp now, std::uint64_t step);
   [[nodiscard]] bool sceneDue(Stamp now) { return due(last_scene_, config_.scene_rate_hz, now); }
+
+  [[nodiscard]] bool localizationDue(Stamp now) {
+    return due(last_localization_, config_.status_rate_hz, now);
+  }
+  [[nodiscard]] bool trajectoryDue(Stamp now) {
+    return due(last_trajectory_, config_.trajectory_rate_hz, now);
+  }
 
   void publish(RobotStatus status) {
     if (link_) link_->publish(std::move(status));
@@ -50,6 +58,15 @@ class TelemetryHub {
   }
   void publish(std::vector<MacroInfo> macros) {
     if (link_) link_->publish(std::move(macros));
+  }
+  void publish(LocalizationStatus status) {
+    if (link_) link_->publish(std::move(status));
+  }
+  void publish(Trajectory trajectory) {
+    if (link_) link_->publish(std::move(trajectory));
+  }
+  void publish(std::shared_ptr<const MapLayer> layer) {
+    if (link_) link_->publish(std::move(layer));
   }
   void publish(PointCloudPtr cloud) {
     if (link_) link_->publish(std::move(cloud));
@@ -73,7 +90,8 @@ class TelemetryHub {
   Config config_;
   OperatorLink* link_;
   Executor& executor_;
-  std::optional<Stamp> last_status_, last_fsm_, last_scene_, last_log_;
+  std::optional<Stamp> last_status_, last_fsm_, last_scene_, last_log_, last_localization_,
+      last_trajectory_;
   std::uint64_t last_step_ = 0;
   LatestValue<Stamp> last_picture_;
   BoundedQueue<LogLine> log_{256, DropPolicy::Oldest};

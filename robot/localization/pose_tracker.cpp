@@ -255,6 +255,7 @@ TrackedPose PoseTracker::pose(Stamp now) const {
   out.distance_since_fix_m = distance_since_fix_m_;
   out.fixes = fixes_;
   out.rejected = rejected_;
+  out.covariance = covariance_;
   out.inlier_fraction = inlier_fraction_;
   out.observable_directions = observable_directions_;
   out.X_map_base_3d = onGround(out.X_map_base);

@@ -38,8 +38,9 @@ struct TrackedPose {
   double sigma_m = 0.0;  ///< largest 1-sigma of the position
   double sigma_yaw_rad = 0.0;
   double distance_since_fix_m = 0.0;
-  double inlier_fraction = 0.0;   ///< of the last fix
-  int observable_directions = 0;  ///< of the last fix, 0..6
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of (x m, y m, yaw rad) in map
+  double inlier_fraction = 0.0;                          ///< of the last fix
+  int observable_directions = 0;                         ///< of the last fix, 0..6
   std::uint64_t fixes = 0, rejected = 0;
 };
 
