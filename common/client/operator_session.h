@@ -13,6 +13,7 @@
 #include "common/model/fire.h"
 #include "common/model/fsm.h"
 #include "common/model/link.h"
+#include "common/model/localization.h"
 #include "common/model/scene.h"
 #include "common/model/sensor.h"
 #include "common/model/status.h"
@@ -113,6 +114,9 @@ class OperatorSession {
     std::function<void(const FsmInfo&, const Arrival&)> on_fsm_info;
     std::function<void(const FsmStatus&, const Arrival&)> on_fsm_status;
     std::function<void(const Scene&, const Arrival&)> on_scene;
+    std::function<void(const LocalizationStatus&, const Arrival&)> on_localization;
+    std::function<void(const Trajectory&, const Arrival&)> on_trajectory;
+    std::function<void(std::shared_ptr<const MapLayer>, const Arrival&)> on_map_layer;
     std::function<void(const std::vector<MacroInfo>&, const Arrival&)> on_macros;
     std::function<void(const LogBatch&, const Arrival&)> on_log;
     std::function<void(PointCloudPtr, const Arrival&)> on_cloud;

@@ -1,6 +1,7 @@
 #include "common/client/topic_dispatch.h"
 
 #include "common/wire/fsm.h"
+#include "common/wire/localization.h"
 #include "common/wire/sensor.h"
 #include "common/wire/telemetry.h"
 #include "common/wire/world.h"
@@ -40,6 +41,14 @@ Result<void> dispatch(Topic topic, std::string_view payload,
       return hand(wire::decodeFsmInfo(payload), callbacks.on_fsm_info, arrival);
     case Topic::Scene:
       return hand(wire::decodeScene(payload), callbacks.on_scene, arrival);
+    case Topic::Localization:
+      return hand(wire::decodeLocalization(payload), callbacks.on_localization, arrival);
+    case Topic::Trajectory:
+      return hand(wire::decodeTrajectory(payload), callbacks.on_trajectory, arrival);
+    case Topic::MapLayer:
+      return callbacks.on_map_layer
+                 ? share(wire::decodeMapLayer(payload), callbacks.on_map_layer, arrival)
+                 : Result<void>{};
     case Topic::Macros:
       return hand(wire::decodeMacros(payload), callbacks.on_macros, arrival);
     case Topic::Log:

@@ -46,6 +46,22 @@ struct SetRecording {
   bool on = true;
 };  ///< moves nothing: needs no lease
 
+/// The operator's word where the robot stands, in `map`. Refused while a mission runs unpaused and
+/// while the base moves. The localisation takes it as a prior with the scatter of a start pose.
+struct SetPose {
+  Pose2 X_map_base;
+};
+/// Moves a configured fire place: (dx, dy) in map, yaw about the plate's vertical. Adds up.
+struct NudgePlace {
+  std::string place;
+  Pose2 by;
+};
+/// The operator has looked and takes the responsibility: the mission goes on although a check
+/// objects. `subject` names the check as the robot did in its reason: "place 1".
+struct ContinueDespite {
+  std::string subject;
+};
+
 // --- hold-to-run setpoints: streamed at 25 Hz, never acknowledged when fine, refused at 300 ms of
 // age -----------
 enum class JogFrame : std::uint8_t { Joint, Tool, Base };
@@ -69,7 +85,8 @@ struct ReleaseAll {};  ///< explicit zero: sent three times on release
 using CommandBody =
     std::variant<AcquireLease, ReleaseLease, StartMission, Pause, Resume, ChangeState, SetMode,
                  ClearStop, ReleaseProtectiveStop, ResetRobot, SetSpeedScale, CancelMacro,
-                 AcknowledgeAlarm, SetRecording, JogBase, JogArm, HoldPump, HoldMacro, ReleaseAll>;
+                 AcknowledgeAlarm, SetRecording, SetPose, NudgePlace, ContinueDespite, JogBase,
+                 JogArm, HoldPump, HoldMacro, ReleaseAll>;
 
 struct Command {
   std::string client_id;          ///< random per process

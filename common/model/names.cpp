@@ -1,5 +1,6 @@
 #include "common/model/command.h"
 #include "common/model/fire.h"
+#include "common/model/localization.h"
 #include "common/model/sensor.h"
 #include "common/model/status.h"
 
@@ -83,6 +84,18 @@ std::string_view toString(Mode mode) {
   return "?";
 }
 
+std::string_view toString(LocalizationHealth health) {
+  switch (health) {
+    case LocalizationHealth::Good:
+      return "good";
+    case LocalizationHealth::Degraded:
+      return "degraded";
+    case LocalizationHealth::Lost:
+      return "lost";
+  }
+  return "?";
+}
+
 std::string_view toString(ArmSafetyMode mode) {
   switch (mode) {
     case ArmSafetyMode::Normal:
@@ -117,6 +130,9 @@ struct NameOf {
   std::string_view operator()(const CancelMacro&) const { return "cancel_macro"; }
   std::string_view operator()(const AcknowledgeAlarm&) const { return "acknowledge_alarm"; }
   std::string_view operator()(const SetRecording&) const { return "set_recording"; }
+  std::string_view operator()(const SetPose&) const { return "set_pose"; }
+  std::string_view operator()(const NudgePlace&) const { return "nudge_place"; }
+  std::string_view operator()(const ContinueDespite&) const { return "continue_despite"; }
   std::string_view operator()(const JogBase&) const { return "jog_base"; }
   std::string_view operator()(const JogArm&) const { return "jog_arm"; }
   std::string_view operator()(const HoldPump&) const { return "hold_pump"; }

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "common/model/fire.h"
+#include "common/model/place_check.h"
 #include "common/model/status.h"
 
 namespace kiln {
@@ -28,6 +29,7 @@ struct Scene {
   PathInfo planned;
   JetPreview jet;
   std::vector<SceneBox> arena;
+  std::vector<PlaceCheck> place_checks;  ///< newest of each place that was looked at
 };
 
 }  // namespace kiln

@@ -38,7 +38,8 @@ struct Alarm {
 struct Check {  ///< preflight row
   std::string name;
   bool ok = false;
-  std::string detail;
+  std::string detail;    ///< what was found: "10.0 Hz", "no scan for 2.1 s"
+  std::string action{};  ///< what to do when it fails; empty while ok
 };
 
 struct LeaseStatus {
@@ -138,6 +139,7 @@ struct FirePlaceInfo {
   Eigen::Vector3d p_map = Eigen::Vector3d::Zero();  ///< expected plate centre
   double yaw_rad = 0.0;                             ///< direction in which the opening looks
   bool visited = false;
+  Pose2 nudge{};  ///< what the operator has moved it by so far; contained in p_map and yaw_rad
 };
 
 /// Predicted jet for the scene: points in map, metres.

@@ -35,6 +35,12 @@ std::string_view schemaName(Topic topic) {
       return "kiln.v1.ThermalFrame";
     case Topic::Heat:
       return "kiln.v1.HeatDetections";
+    case Topic::Localization:
+      return "kiln.v1.LocalizationStatus";
+    case Topic::Trajectory:
+      return "kiln.v1.Trajectory";
+    case Topic::MapLayer:
+      return "kiln.v1.MapLayer";
     case Topic::HeadCamera:
     case Topic::OperatorCamera:
       return "foxglove.CompressedImage";

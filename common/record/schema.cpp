@@ -13,6 +13,7 @@
 #include "foxglove/RawImage.pb.h"
 #include "kiln/v1/command.pb.h"
 #include "kiln/v1/fsm.pb.h"
+#include "kiln/v1/localization.pb.h"
 #include "kiln/v1/recording.pb.h"
 #include "kiln/v1/sensor.pb.h"
 #include "kiln/v1/telemetry.pb.h"
@@ -38,7 +39,8 @@ void linkDescriptors() {
         ::foxglove::Log::descriptor(), ::foxglove::PointCloud::descriptor(),
         ::foxglove::PoseInFrame::descriptor(), ::foxglove::RawImage::descriptor(),
         v1::Command::descriptor(), v1::FsmInfo::descriptor(), v1::DeviceSample::descriptor(),
-        v1::Cloud::descriptor(), v1::RobotStatus::descriptor(), v1::Scene::descriptor()}) {
+        v1::Cloud::descriptor(), v1::MapLayer::descriptor(), v1::RobotStatus::descriptor(),
+        v1::Scene::descriptor()}) {
     (void)descriptor->full_name();
   }
 }

@@ -1,5 +1,6 @@
 #include "common/transport/robot_end.h"
 
+#include <array>
 #include <atomic>
 #include <optional>
 #include <thread>
@@ -13,7 +14,6 @@ namespace kiln {
 namespace {
 
 constexpr double kTick_s = 0.05;
-constexpr double kLatchedPeriod_s = 2.0;
 constexpr std::size_t kSendQueue = 256;
 constexpr int kStatusHwm = 64;
 constexpr int kStreamsHwm = 4;
@@ -43,7 +43,7 @@ struct RobotEnd::Impl {
   BoundedQueue<std::pair<std::string, std::string>> sends{kSendQueue, DropPolicy::Newest};
   std::atomic<std::uint64_t> failed_sends{0};
   Handlers handlers;
-  Monotonic::time_point last_latched{};
+  std::array<Monotonic::time_point, kTopicCount> last_repeat{};
   std::jthread thread;
 };
 
@@ -144,10 +144,12 @@ void RobotEnd::Impl::publishWaiting() {
 }
 
 void RobotEnd::Impl::repeatLatched() {
-  if (secondsBetween(last_latched, monotonicNow()) < kLatchedPeriod_s) return;
-  last_latched = monotonicNow();
+  const auto now = monotonicNow();
   for (const TopicInfo& info : topicTable()) {
-    if (!info.latched || !outbox.subscribed(info.topic)) continue;
+    auto& last = last_repeat[static_cast<std::size_t>(info.topic)];
+    if (!info.latched || secondsBetween(last, now) < info.repeat_s) continue;
+    last = now;
+    if (!outbox.subscribed(info.topic)) continue;
     if (const auto newest = outbox.again(info.topic, clock.now())) transmit(*newest);
   }
 }

@@ -8,7 +8,9 @@ constexpr std::array<TopicInfo, kTopicCount> kTable{{
     {Topic::RobotStatus, "robot_status", Lane::Status, 2, false, 25.0},
     {Topic::FsmStatus, "fsm_status", Lane::Status, 2, false, 25.0},
     {Topic::FsmInfo, "fsm_info", Lane::Status, 1, true, 5.0},
+    {Topic::Localization, "localization", Lane::Status, 2, false, 25.0},
     {Topic::Scene, "scene", Lane::Status, 1, true, 10.0},
+    {Topic::Trajectory, "trajectory", Lane::Status, 1, true, 2.0},
     {Topic::Macros, "macros", Lane::Status, 1, true, 5.0},
     {Topic::Log, "log", Lane::Status, 8, false, 5.0},
     {Topic::Cloud, "cloud", Lane::Streams, 2, false, 20.0},
@@ -16,6 +18,7 @@ constexpr std::array<TopicInfo, kTopicCount> kTable{{
     {Topic::Heat, "heat", Lane::Streams, 2, false, 20.0},
     {Topic::HeadCamera, "head_camera", Lane::Streams, 1, false, 20.0},
     {Topic::OperatorCamera, "operator_camera", Lane::Streams, 1, false, 20.0},
+    {Topic::MapLayer, "map_layer", Lane::Streams, 1, true, 1.0, 20.0},
 }};
 
 }  // namespace

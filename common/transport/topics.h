@@ -12,7 +12,9 @@ enum class Topic : std::uint8_t {
   RobotStatus,
   FsmStatus,
   FsmInfo,
+  Localization,
   Scene,
+  Trajectory,
   Macros,
   Log,
   Cloud,
@@ -20,8 +22,9 @@ enum class Topic : std::uint8_t {
   Heat,
   HeadCamera,
   OperatorCamera,
+  MapLayer,
 };
-inline constexpr std::size_t kTopicCount = 11;
+inline constexpr std::size_t kTopicCount = 14;
 
 /// Which PUB socket carries a topic, so that a cloud never delays a status.
 enum class Lane : std::uint8_t { Status, Streams };
@@ -31,9 +34,10 @@ struct TopicInfo {
   Topic topic;
   std::string_view name;  ///< on the wire
   Lane lane;
-  std::size_t queue;  ///< messages waiting for the link thread; the oldest is dropped and counted
-  bool latched;  ///< the newest is kept: sent again to each new subscriber and every kLatchedPeriod
+  std::size_t queue;   ///< messages waiting for the link thread; the oldest is dropped and counted
+  bool latched;        ///< the newest is kept: sent again to each new subscriber and every repeat_s
   double max_rate_hz;  ///< more than this is dropped and counted; 0 = no cap
+  double repeat_s = 2.0;  ///< of a latched topic
 };
 
 /// The table: one row a topic, in the order of the enum.

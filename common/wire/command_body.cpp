@@ -30,6 +30,14 @@ struct BodyWriter {
   void operator()(const CancelMacro&) const { out.mutable_cancel_macro(); }
   void operator()(const AcknowledgeAlarm& b) const { out.set_acknowledge_alarm(validUtf8(b.id)); }
   void operator()(const SetRecording& b) const { out.set_set_recording(b.on); }
+  void operator()(const SetPose& b) const { toProto(b.X_map_base, *out.mutable_set_pose()); }
+  void operator()(const NudgePlace& b) const {
+    out.mutable_nudge_place()->set_place(validUtf8(b.place));
+    toProto(b.by, *out.mutable_nudge_place()->mutable_by());
+  }
+  void operator()(const ContinueDespite& b) const {
+    out.set_continue_despite(validUtf8(b.subject));
+  }
   void operator()(const JogBase& b) const { toProto(b.twist, *out.mutable_jog_base()); }
   void operator()(const JogArm& b) const {
     out.mutable_jog_arm()->set_frame(static_cast<std::uint32_t>(b.frame));
@@ -96,6 +104,12 @@ Result<CommandBody> bodyFromProto(const v1::Command& in) {
       return AcknowledgeAlarm{in.acknowledge_alarm()};
     case v1::Command::kSetRecording:
       return SetRecording{in.set_recording()};
+    case v1::Command::kSetPose:
+      return SetPose{fromProto(in.set_pose())};
+    case v1::Command::kNudgePlace:
+      return NudgePlace{in.nudge_place().place(), fromProto(in.nudge_place().by())};
+    case v1::Command::kContinueDespite:
+      return ContinueDespite{in.continue_despite()};
     case v1::Command::kJogBase:
       return JogBase{fromProto(in.jog_base())};
     case v1::Command::kJogArm:

@@ -4,7 +4,7 @@
 #include "common/model/command.h"
 #include "kiln/v1/command.pb.h"
 
-/// For command.cpp alone: the oneof of 18 bodies.
+/// For command.cpp alone: the oneof of command bodies.
 namespace kiln::wire {
 
 void bodyToProto(const CommandBody& body, v1::Command& out);

@@ -12,6 +12,7 @@
 #include "common/transport/robot_end.h"
 #include "common/wire/command.h"
 #include "common/wire/fsm.h"
+#include "common/wire/localization.h"
 #include "common/wire/sensor.h"
 #include "common/wire/telemetry.h"
 #include "common/wire/world.h"
@@ -314,6 +315,17 @@ void OperatorLink::publish(Scene scene) {
 }
 void OperatorLink::publish(std::vector<MacroInfo> macros) {
   impl_->publish(Topic::Macros, [value = std::move(macros)] { return wire::encode(value); });
+}
+void OperatorLink::publish(LocalizationStatus status) {
+  impl_->end->publish(Topic::Localization,
+                      [value = std::move(status)] { return wire::encode(value); });
+}
+void OperatorLink::publish(Trajectory trajectory) {
+  impl_->end->publish(Topic::Trajectory,
+                      [value = std::move(trajectory)] { return wire::encode(value); });
+}
+void OperatorLink::publish(std::shared_ptr<const MapLayer> layer) {
+  impl_->end->publish(Topic::MapLayer, [value = std::move(layer)] { return wire::encode(*value); });
 }
 void OperatorLink::publish(LogBatch batch) {
   impl_->publish(Topic::Log, [value = std::move(batch)] { return wire::encode(value); });

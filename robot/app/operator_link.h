@@ -12,6 +12,7 @@
 #include "common/model/fire.h"
 #include "common/model/fsm.h"
 #include "common/model/link.h"
+#include "common/model/localization.h"
 #include "common/model/scene.h"
 #include "common/model/sensor.h"
 #include "common/model/status.h"
@@ -75,6 +76,9 @@ class OperatorLink {
   void publish(FsmStatus status);
   void publish(Scene scene);                    ///< latched
   void publish(std::vector<MacroInfo> macros);  ///< latched
+  void publish(LocalizationStatus status);
+  void publish(Trajectory trajectory);                  ///< latched
+  void publish(std::shared_ptr<const MapLayer> layer);  ///< latched; send it when the map changes
   void publish(LogBatch batch);
   void publish(PointCloudPtr cloud);
   void publish(ThermalImagePtr image);

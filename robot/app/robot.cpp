@@ -1,6 +1,7 @@
 #include "robot/app/robot.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "common/config/resources.h"
 #include "common/core/log.h"
@@ -12,6 +13,8 @@ namespace {
 
 constexpr std::size_t kMostCosts = 100'000;  // scans: nearly three hours
 constexpr Duration kFirstFix = std::chrono::seconds(3);
+constexpr double kStandstill_mps = 0.02;
+constexpr double kStandstill_radps = 0.03;
 constexpr Duration kMissionPeriod = std::chrono::milliseconds(20);
 
 template <class T>
@@ -174,6 +177,9 @@ void Robot::Impl::obeyOperators(Stamp now) {
   situation.protective_stop = arm_state && arm_state->safety == ArmSafetyMode::ProtectiveStop;
   situation.mission_running = fsm.running;
   situation.mission_paused = fsm.paused;
+  const Twist2 moving = base.tracking().measured;
+  situation.base_moving = std::hypot(moving.vx_mps, moving.vy_mps) > kStandstill_mps ||
+                          std::abs(moving.wz_radps) > kStandstill_radps;
   situation.ready = allOk(checks);
   situation.not_ready_reason = firstFailure(checks);
   situation.view_age_s = std::min(ageOf(perception.lastScan(), now).value_or(1e9),

@@ -11,6 +11,8 @@ namespace {
 
 using gate::refuse;
 
+constexpr double kMaxYaw_rad = 2.0 * M_PI;
+
 GateDecision checkNumber(double value, double min, double max, const char* what, const char* unit) {
   if (!std::isfinite(value))
     return refuse("not_finite", fmt::format("{} is {}; not obeyed", what, value));
@@ -49,6 +51,11 @@ void CommandGate::Config::visit(ConfigArchive& a) {
           "faster jogs are refused as errors");
   a.field("max_jog_rate_radps", max_jog_rate_radps, "rad/s", 0.1, 6.4,
           "faster turns are refused as errors");
+  a.field("arena_reach_m", arena_reach_m, "m", 1.0, 1000.0,
+          "no pose is set further from the origin of map");
+  a.field("max_nudge_m", max_nudge_m, "m", 0.0, 2.0,
+          "a fire place is nudged at most this far at a time, each axis");
+  a.field("max_nudge_deg", max_nudge_deg, "deg", 0.0, 90.0, "and turned at most this far");
 }
 
 GateDecision CommandGate::decide(const ReceivedCommand& received, const LeaseStatus& lease,
@@ -144,6 +151,19 @@ GateDecision CommandGate::checkValues(const CommandBody& body) const {
   if (const auto* pump = std::get_if<HoldPump>(&body)) {
     return firstRefusal({checkNumber(pump->left, 0.0, 1.0, "left pump duty", ""),
                          checkNumber(pump->right, 0.0, 1.0, "right pump duty", "")});
+  }
+  if (const auto* pose = std::get_if<SetPose>(&body)) {
+    const double reach = config_.arena_reach_m;
+    return firstRefusal(
+        {checkNumber(pose->X_map_base.x_m, -reach, reach, "x of the pose", "m"),
+         checkNumber(pose->X_map_base.y_m, -reach, reach, "y of the pose", "m"),
+         checkNumber(pose->X_map_base.yaw_rad, -kMaxYaw_rad, kMaxYaw_rad, "yaw", "rad")});
+  }
+  if (const auto* nudge = std::get_if<NudgePlace>(&body)) {
+    const double reach = config_.max_nudge_m, turn = config_.max_nudge_deg * M_PI / 180.0;
+    return firstRefusal({checkNumber(nudge->by.x_m, -reach, reach, "nudge along x", "m"),
+                         checkNumber(nudge->by.y_m, -reach, reach, "nudge along y", "m"),
+                         checkNumber(nudge->by.yaw_rad, -turn, turn, "nudge in yaw", "rad")});
   }
   if (const auto* scale = std::get_if<SetSpeedScale>(&body)) {
     return checkNumber(scale->scale, 0.0, 1.0, "speed scale", "");

@@ -18,6 +18,7 @@ struct GateSituation {
   bool mission_paused = false;
   bool ready = true;             ///< preflight holds
   std::string not_ready_reason;  ///< the first failing check, in words
+  bool base_moving = false;      ///< measured
   bool anything_held = false;    ///< a hold-to-run setpoint is alive
   double view_age_s =
       1e9;  ///< newest camera picture or cloud that left for the operator; no view = large
@@ -36,9 +37,9 @@ struct GateDecision {
 /// mode and preconditions: they only ever stop.
 ///
 /// Codes: viewer no_lease old_lease replayed out_of_order too_old in_future not_finite out_of_range
-/// stopped wrong_mode not_ready already_running not_running not_paused not_stopped still_held
-/// no_protective_stop protective_stop stale_view link_slow. Confined to the mission thread; its
-/// only memory is the nonces.
+/// mission_running moving stopped wrong_mode not_ready already_running not_running not_paused
+/// not_stopped still_held no_protective_stop protective_stop stale_view link_slow. Confined to the
+/// mission thread; its only memory is the nonces.
 class CommandGate {
  public:
   struct Config {
@@ -54,6 +55,9 @@ class CommandGate {
     double creep_scale = 0.2;
     double max_jog_speed_mps = 4.0;  ///< beyond this a jog is an error, not a wish to clamp
     double max_jog_rate_radps = 3.2;
+    double arena_reach_m = 200.0;  ///< no pose is set further from the origin of map than this
+    double max_nudge_m = 0.5;      ///< a fire place that is off by more was configured wrongly
+    double max_nudge_deg = 30.0;
     void visit(ConfigArchive& a);
   };
   explicit CommandGate(Config config) : config_(config) {}

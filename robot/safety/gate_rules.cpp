@@ -69,6 +69,22 @@ struct SituationRule {
   GateDecision operator()(const CancelMacro&) const { return {}; }
   GateDecision operator()(const AcknowledgeAlarm&) const { return {}; }
   GateDecision operator()(const SetRecording&) const { return {}; }
+  GateDecision operator()(const SetPose&) const {
+    if (now.mission_running && !now.mission_paused) {
+      return refuse("mission_running",
+                    "the pose is not set under a running mission; pause it first");
+    }
+    if (now.base_moving)
+      return refuse("moving", "the robot moves; wait for standstill, then set its pose");
+    return {};
+  }
+  GateDecision operator()(const NudgePlace&) const { return {}; }
+  GateDecision operator()(const ContinueDespite&) const {
+    if (now.stop_latched) return refuseStopped();
+    if (!now.mission_running)
+      return refuse("not_running", "no mission is running; there is nothing to go on with");
+    return {};
+  }
   GateDecision operator()(const JogBase&) const { return byHand("jog"); }
   GateDecision operator()(const JogArm&) const {
     auto decision = byHand("jog");

@@ -7,6 +7,7 @@
 #include "common/wire/command.h"
 #include "common/wire/compress.h"
 #include "common/wire/fsm.h"
+#include "common/wire/localization.h"
 #include "common/wire/sensor.h"
 #include "common/wire/telemetry.h"
 #include "common/wire/world.h"
@@ -48,6 +49,9 @@ int feedAll(std::string_view bytes) {
          static_cast<int>(decodeStopRequest(bytes).has_value()) +
          static_cast<int>(decodeStopAck(bytes).has_value()) +
          static_cast<int>(decodeRobotStatus(bytes).has_value()) +
+         static_cast<int>(decodeLocalization(bytes).has_value()) +
+         static_cast<int>(decodeMapLayer(bytes).has_value()) +
+         static_cast<int>(decodeTrajectory(bytes).has_value()) +
          static_cast<int>(decodeMacros(bytes).has_value()) +
          static_cast<int>(decodeLogBatch(bytes).has_value());
 }
@@ -68,9 +72,18 @@ TEST(CorruptInput, FlippedAndCutMessagesAreNeverACrash) {
   Command command;
   command.client_id = "c";
   command.body = JogArm{};
+  MapLayer layer;
+  layer.points_map.assign(300, Eigen::Vector3f(1, 2, 3));
+  const Trajectory driven{{}, {{0, {{1, 2, 0.5}}}}};
   FsmInfo info{"fire", "uuid", "Start", {FsmStateInfo{}}, {FsmEdgeInfo{}}};
-  const std::vector<std::string> good{encode(someCloud(), 0.005), encode(someThermal()),
-                                      encode(status), encode(info), encode(ToRobot{command})};
+  const std::vector<std::string> good{encode(someCloud(), 0.005),
+                                      encode(someThermal()),
+                                      encode(status),
+                                      encode(info),
+                                      encode(ToRobot{command}),
+                                      encode(layer),
+                                      encode(driven),
+                                      encode(LocalizationStatus{})};
   for (int round = 0; round < 4000; ++round) {
     std::string bytes = good[static_cast<std::size_t>(round) % good.size()];
     for (int flips = 1 + static_cast<int>(random() % 4); flips > 0; --flips) {

@@ -4,6 +4,7 @@
 
 #include "common/wire/command.h"
 #include "common/wire/fsm.h"
+#include "common/wire/localization.h"
 #include "common/wire/sensor.h"
 #include "common/wire/telemetry.h"
 #include "common/wire/world.h"
@@ -30,6 +31,9 @@ std::vector<CommandBody> everyBody() {
           CancelMacro{},
           AcknowledgeAlarm{"arm.x"},
           SetRecording{true},
+          SetPose{{1.5, -2.5, 0.7}},
+          NudgePlace{"place 1", {0.05, -0.1, 0.02}},
+          ContinueDespite{"place 1"},
           JogBase{{0.1, -0.2, 0.3}},
           arm,
           HoldPump{0.0, 1.0},
@@ -75,7 +79,7 @@ TEST(Messages, RobotStatusKeepsEveryField) {
   s.seq = 9;
   s.mode = Mode::Teleop;
   s.word = StatusWord::Teleop;
-  s.checks = {{"lidar", true, "10 Hz"}};
+  s.checks = {{"lidar", false, "no scan", "check its cable"}};
   s.lease = {"id", "anna", 4, 1.5, "id2", "ben", 8.0};
   s.stop = {true, "operator ben", at(2.0), true};
   s.X_map_base = {1.0, 2.0, 0.5};
@@ -96,6 +100,7 @@ TEST(Messages, RobotStatusKeepsEveryField) {
   same.X_base_nozzle = s.X_base_nozzle;  // a rotation through a quaternion differs in its last bit
   EXPECT_EQ(encode(same), encode(s));
   EXPECT_EQ(back->lease.requested_by_name, "ben");
+  EXPECT_EQ(back->checks.at(0).action, "check its cable");
   EXPECT_EQ(back->water.tank_l_est, s.water.tank_l_est);
 }
 
@@ -114,7 +119,15 @@ TEST(Messages, ThermalCountsComeBackExactly) {
 TEST(Messages, SceneAndGraphComeBack) {
   Scene scene;
   scene.fires.push_back({at(1), {1, 2, 3}, Eigen::Matrix3d::Random(), 4, 350, 0.9, 1.1, "place 1"});
-  scene.places.push_back({"place 1", {4, 5, 6}, 0.5, true});
+  scene.places.push_back({"place 1", {4, 5, 6}, 0.5, true, {0.1, -0.1, 0.05}});
+  PlaceCheck seen;
+  seen.place = "place 1";
+  seen.X_map_sensed = makePose({1, 2, 0}, {0, 0, 0});
+  seen.verdict = PlaceVerdict::Misplaced;
+  seen.reason = "18 cm off";
+  PlaceCheck unseen;
+  unseen.place = "place 2";
+  scene.place_checks = {seen, unseen};
   scene.planned.waypoints_map = {{1, 2, 3}};
   scene.jet.points_map = {{1, 0, 0}, {2, 0, 0}};
   scene.arena.push_back({"wall", makePose({1, 2, 3}, {0, 0, 1}), {1, 1, 1}, 0xff00ff});
@@ -122,6 +135,9 @@ TEST(Messages, SceneAndGraphComeBack) {
   ASSERT_TRUE(back.has_value()) << back.error();
   EXPECT_TRUE(back->fires.at(0).covariance.isApprox(scene.fires[0].covariance));
   EXPECT_EQ(encode(*back), encode(scene));
+  EXPECT_EQ(back->place_checks.at(0).verdict, PlaceVerdict::Misplaced);
+  EXPECT_TRUE(back->place_checks.at(0).X_map_sensed.has_value());
+  EXPECT_FALSE(back->place_checks.at(1).X_map_sensed.has_value());
 
   FsmStatus status;
   status.guards = {{"Estimate within 3 cm", true, "2.1 cm", 0.2}};
@@ -129,6 +145,55 @@ TEST(Messages, SceneAndGraphComeBack) {
   const auto fsm = decodeFsmStatus(encode(status));
   ASSERT_TRUE(fsm.has_value()) << fsm.error();
   EXPECT_EQ(encode(*fsm), encode(status));
+}
+
+TEST(Messages, LocalizationComesBackWithWhatIsUnknown) {
+  LocalizationStatus status;
+  status.health = LocalizationHealth::Degraded;
+  status.reason = "odometry alone for 2.1 s";
+  status.submap = "indoor";
+  status.X_map_base.translation() << 1.0, 2.0, -0.3;
+  status.covariance = Eigen::Vector3d(1e-4, 4e-4, 1e-5).asDiagonal();
+  status.tracking_error_m = 0.02;
+  const auto back = decodeLocalization(encode(status));
+  ASSERT_TRUE(back.has_value()) << back.error();
+  EXPECT_EQ(encode(*back), encode(status));
+  EXPECT_EQ(back->health, LocalizationHealth::Degraded);
+  EXPECT_TRUE(back->tracking_error_m.has_value());
+  EXPECT_FALSE(back->tracking_error_yaw_rad.has_value());
+}
+
+TEST(Messages, MapLayerIsWithinHalfACentimetreAndKeepsItsParts) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> place(-40.0f, 40.0f);
+  MapLayer layer;
+  layer.name = "kitchen";
+  layer.version = 0xfeedULL;
+  layer.submaps = {"outdoor", "indoor"};
+  for (int i = 0; i < 2000; ++i) {
+    layer.points_map.emplace_back(place(random), place(random), place(random));
+    layer.submap_of.push_back(static_cast<std::uint8_t>(i % 2));
+  }
+  layer.points_map.emplace_back(5000.0f, 0.0f, 0.0f);  // out of reach: left out
+  layer.submap_of.push_back(0);
+  const auto back = decodeMapLayer(encode(layer));
+  ASSERT_TRUE(back.has_value()) << back.error();
+  ASSERT_EQ(back->points_map.size(), 2000u);
+  EXPECT_EQ(back->version, layer.version);
+  EXPECT_EQ(back->submaps, layer.submaps);
+  for (std::size_t i = 0; i < back->points_map.size(); ++i) {
+    EXPECT_LT((back->points_map[i] - layer.points_map[i]).cwiseAbs().maxCoeff(), 0.0051f);
+    EXPECT_EQ(back->submap_of[i], layer.submap_of[i]);
+  }
+}
+
+TEST(Messages, TrajectoryKeepsItsLegs) {
+  const Trajectory driven{at(4), {{0, {{1, 2, 0.5}, {1.5, 2, 0.5}}}, {1, {{0, 0, 0}}}}};
+  const auto back = decodeTrajectory(encode(driven));
+  ASSERT_TRUE(back.has_value()) << back.error();
+  ASSERT_EQ(back->legs.size(), 2u);
+  EXPECT_EQ(back->legs[1].resets, 1);
+  EXPECT_EQ(encode(*back), encode(driven));
 }
 
 TEST(Messages, LogTextWithBrokenCharactersStillArrives) {

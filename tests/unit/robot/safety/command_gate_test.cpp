@@ -221,5 +221,42 @@ TEST(CommandGate, MissionCommandsNeedTheirPremises) {
   EXPECT_EQ(desk.code(SetMode{Mode::Stopped}), "out_of_range");
 }
 
+TEST(CommandGate, APoseIsSetAtRestAndNotUnderARunningMission) {
+  Desk desk;
+  const SetPose pose{{1.0, 2.0, 0.5}};
+  EXPECT_EQ(desk.code(pose), "");
+  desk.situation.base_moving = true;
+  EXPECT_EQ(desk.code(pose), "moving");
+  desk.situation.base_moving = false;
+  desk.situation.mission_running = true;
+  EXPECT_EQ(desk.code(pose), "mission_running");
+  desk.situation.mission_paused = true;
+  EXPECT_EQ(desk.code(pose), "");
+  EXPECT_EQ(desk.code(SetPose{{kNan, 0, 0}}), "not_finite");
+  EXPECT_EQ(desk.code(SetPose{{0, 1e6, 0}}), "out_of_range");
+}
+
+TEST(CommandGate, NudgesAreSmallAndNeedTheLease) {
+  Desk desk;
+  EXPECT_EQ(desk.code(NudgePlace{"place 1", {0.2, -0.1, 0.1}}), "");
+  EXPECT_EQ(desk.code(NudgePlace{"place 1", {0.6, 0, 0}}), "out_of_range");
+  EXPECT_EQ(desk.code(NudgePlace{"place 1", {0, 0, kNan}}), "not_finite");
+  for (const CommandBody& body : {CommandBody(SetPose{}), CommandBody(NudgePlace{"place 1", {}}),
+                                  CommandBody(ContinueDespite{"place 1"})}) {
+    auto stranger = desk.make(body);
+    stranger.command.client_id = "ben";
+    EXPECT_EQ(desk.decide(stranger).code, "no_lease") << commandName(body);
+  }
+}
+
+TEST(CommandGate, GoingOnDespiteACheckNeedsAMissionThatRuns) {
+  Desk desk;
+  EXPECT_EQ(desk.code(ContinueDespite{"place 1"}), "not_running");
+  desk.situation.mission_running = true;
+  EXPECT_EQ(desk.code(ContinueDespite{"place 1"}), "");
+  desk.situation.stop_latched = true;
+  EXPECT_EQ(desk.code(ContinueDespite{"place 1"}), "stopped");
+}
+
 }  // namespace
 }  // namespace kiln
