@@ -1,0 +1,138 @@
+#include "gui/views/state_card/preflight_list.h"
+
+#include <QFontMetrics>
+#include <QPainter>
+#include <algorithm>
+
+namespace kiln::gui {
+
+namespace {
+constexpr int kRow_px = 22, kPassing_px = 19, kMark_px = 20, kGap_px = 4;
+
+QString text(const std::string& s) { return QString::fromStdString(s); }
+}  // namespace
+
+PreflightList::PreflightList(const Ui& ui, QWidget* parent) : QWidget(parent), ui_(ui) {
+  QSizePolicy policy(QSizePolicy::Expanding, QSizePolicy::Preferred);
+  policy.setHeightForWidth(true);
+  setSizePolicy(policy);
+  connect(&ui_.theme, &Theme::changed, this, qOverload<>(&QWidget::update));
+}
+
+void PreflightList::setChecks(const std::vector<Check>& checks) {
+  checks_ = checks;
+  std::stable_partition(checks_.begin(), checks_.end(), [](const Check& c) { return !c.ok; });
+  QStringList tip;
+  for (const Check& check : checks_) {
+    tip << QStringLiteral("%1 %2: %3").arg(check.ok ? QStringLiteral("✓") : QStringLiteral("!"),
+                                           text(check.name), text(check.detail));
+  }
+  setToolTip(tip.join(QLatin1Char('\n')));
+  updateGeometry();
+  update();
+}
+
+int PreflightList::failing() const {
+  return static_cast<int>(
+      std::count_if(checks_.begin(), checks_.end(), [](const Check& c) { return !c.ok; }));
+}
+
+int PreflightList::actionHeight(const Check& check, int width) const {
+  if (check.action.empty()) return 0;
+  return QFontMetrics(ui_.theme.font(TextRole::Small))
+      .boundingRect(QRect(0, 0, std::max(60, width - kMark_px), 1000), Qt::TextWordWrap,
+                    text(check.action))
+      .height();
+}
+
+int PreflightList::failingHeight(int width) const {
+  int height = 0;
+  for (const Check& check : checks_) {
+    if (!check.ok) height += kRow_px + actionHeight(check, width) + kGap_px;
+  }
+  return height;
+}
+
+int PreflightList::heightForWidth(int width) const {
+  return failingHeight(width) + (total() - failing()) * kPassing_px;
+}
+
+QSize PreflightList::sizeHint() const { return {260, heightForWidth(std::max(200, width()))}; }
+
+QSize PreflightList::minimumSizeHint() const {
+  return {120, std::min(heightForWidth(std::max(200, width())), kRow_px + kPassing_px)};
+}
+
+void PreflightList::paintFailing(QPainter& painter, const Check& check, int y, int width) const {
+  const Palette& p = ui_.theme.colors();
+  const QPointF c(8, y + kRow_px / 2.0);
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(p.caution);
+  painter.drawRoundedRect(QRectF(c.x() - 1.4, c.y() - 6, 2.8, 8), 1, 1);
+  painter.drawEllipse(c + QPointF(0, 5), 1.7, 1.7);
+  const QFont strong = ui_.theme.font(TextRole::Strong), small = ui_.theme.font(TextRole::Small);
+  const int name = QFontMetrics(strong).horizontalAdvance(text(check.name)) + 8;
+  painter.setFont(strong);
+  painter.setPen(p.text);
+  painter.drawText(QRect(kMark_px, y, width - kMark_px, kRow_px),
+                   Qt::AlignVCenter | Qt::AlignLeft, text(check.name));
+  painter.setFont(small);
+  painter.setPen(p.caution);
+  const int room = std::max(0, width - kMark_px - name);
+  painter.drawText(QRect(kMark_px + name, y, room, kRow_px), Qt::AlignVCenter | Qt::AlignRight,
+                   QFontMetrics(small).elidedText(text(check.detail), Qt::ElideRight, room));
+  painter.setPen(p.text);
+  painter.drawText(QRect(kMark_px, y + kRow_px - 2, width - kMark_px, actionHeight(check, width)),
+                   Qt::TextWordWrap, text(check.action));
+}
+
+void PreflightList::paintPassing(QPainter& painter, const Check& check, int y) const {
+  const Palette& p = ui_.theme.colors();
+  const QPointF c(8, y + kPassing_px / 2.0);
+  painter.setPen(QPen(p.ok, 2.0, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+  painter.drawPolyline(QPolygonF() << c + QPointF(-4, 0) << c + QPointF(-1.5, 3)
+                                   << c + QPointF(4, -3.5));
+  const QFont small = ui_.theme.font(TextRole::Small);
+  const QFontMetrics metrics(small);
+  painter.setFont(small);
+  painter.setPen(p.text);
+  const int name = metrics.horizontalAdvance(text(check.name)) + 8;
+  painter.drawText(QRect(kMark_px, y, width() - kMark_px, kPassing_px),
+                   Qt::AlignVCenter | Qt::AlignLeft, text(check.name));
+  painter.setPen(p.dim);
+  const int room = std::max(0, width() - kMark_px - name);
+  painter.drawText(QRect(kMark_px + name, y, room, kPassing_px),
+                   Qt::AlignVCenter | Qt::AlignRight,
+                   metrics.elidedText(text(check.detail), Qt::ElideRight, room));
+}
+
+void PreflightList::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  painter.setRenderHint(QPainter::Antialiasing);
+  const Palette& p = ui_.theme.colors();
+  const int bottom = height() - kPassing_px;  // one line is kept for what does not fit
+  int y = 0;
+  std::size_t i = 0;
+  for (; i < checks_.size(); ++i) {
+    const Check& check = checks_[i];
+    const int needs =
+        check.ok ? kPassing_px : kRow_px + actionHeight(check, width()) + kGap_px;
+    const bool last = i + 1 == checks_.size();
+    if (y + needs > (last ? height() : bottom)) break;
+    check.ok ? paintPassing(painter, check, y) : paintFailing(painter, check, y, width());
+    y += needs;
+  }
+  if (i == checks_.size()) return;
+  const auto rest = static_cast<int>(checks_.size() - i);
+  const auto bad = static_cast<int>(std::count_if(checks_.begin() + static_cast<long>(i),
+                                                  checks_.end(),
+                                                  [](const Check& c) { return !c.ok; }));
+  painter.setFont(ui_.theme.font(TextRole::Small));
+  painter.setPen(bad > 0 ? p.caution : p.dim);
+  painter.drawText(QRect(kMark_px, y, width() - kMark_px, kPassing_px),
+                   Qt::AlignVCenter | Qt::AlignLeft,
+                   bad > 0 ? tr("and %1 more, %2 of them failing").arg(rest).arg(bad)
+                           : tr("✓ %1 more checks hold").arg(rest));
+}
+
+}  // namespace kiln::gui
