@@ -17,11 +17,11 @@ constexpr double kUnobservable_m = 10.0;  // 1-sigma reported along a direction 
 constexpr double kConverged_m = 3e-4;
 constexpr float kOutlier = 0.02F;     // likelihood of the outlier class: that of 2.8 sigma
 constexpr int kFallbackLevels = 2;    // coarser levels asked where the wanted one is empty
+constexpr float kPostEnd_m = 0.2F;    // above and below what was seen of a post
 constexpr float kFloorNormal = 0.8F;  // Z of the normal: floors explain every pose
 
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-/// The upper triangle of w n n^T and w n (n . d), summed over the surfels of one patch.
 Eigen::Matrix3d cross(const Eigen::Vector3d& v) {
   Eigen::Matrix3d m;
   m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
@@ -50,6 +50,7 @@ void ScanMatcher::Config::visit(ConfigArchive& a) {
   a.field("sensor_sigma_m", sensor_sigma_m, "m", 0.001, 0.2, "of one patch");
   a.field("inlier_distance_m", inlier_distance_m, "m", 0.005, 1, "what a surfel explains");
   a.field("min_inlier_fraction", min_inlier_fraction, "", 0, 1, "fewer are refused");
+  a.field("max_edges", max_edges, "", 0, 10000, "ends of surfaces, matched with the map's posts");
   a.field("min_information", min_information, "", 1, 1e4,
           "effective patches that must hold a direction");
   a.field("residual_sigma_m", residual_sigma_m, "m", 0.001, 1, "of one patch, in the covariance");
@@ -80,6 +81,19 @@ struct ScanMatcher::Equations {
   Vector6d g = Vector6d::Zero();
   double lever_squared = 0.0, weight = 0.0;
 
+  /// A pull A (q - target) = `pull` on a point q = base centre + lever.
+  void add(const Eigen::Matrix3d& A, const Eigen::Vector3d& pull, const Eigen::Vector3d& lever,
+           double w) {
+    const Eigen::Matrix3d L = cross(lever), LA = L * A;  // dq = dt - L drotation
+    H.topLeftCorner<3, 3>() += A;
+    H.topRightCorner<3, 3>() += LA.transpose();
+    H.bottomLeftCorner<3, 3>() += LA;
+    H.bottomRightCorner<3, 3>() += LA * L.transpose();
+    g.head<3>() += pull;
+    g.tail<3>() += L * pull;
+    weight += w;
+    lever_squared += w * lever.squaredNorm();
+  }
   /// Metres a rotation is worth: makes translations and rotations comparable.
   [[nodiscard]] double lever_m() const {
     return weight > 0.0 ? std::max(0.5, std::sqrt(lever_squared / weight)) : 1.0;
@@ -90,27 +104,55 @@ struct ScanMatcher::Equations {
   }
 };
 
+/// Eigenvectors of the scaled information: which motions the scan holds, and how firmly.
+struct ScanMatcher::Directions {
+  Vector6d scale, information;
+  Matrix6d vectors;
+  int first_held = 0;  ///< the weaker ones, before it, are not held
+
+  [[nodiscard]] int held() const { return 6 - first_held; }
+  /// Least-squares step within the held directions.
+  [[nodiscard]] Vector6d step(const Equations& equations) const {
+    if (held() == 0) return Vector6d::Zero();
+    const auto W = vectors.rightCols(held());
+    const Matrix6d H = scale.asDiagonal() * equations.H * scale.asDiagonal();
+    const Eigen::MatrixXd part = W.transpose() * H * W;
+    return W * part.ldlt().solve(-W.transpose() * (scale.asDiagonal() * equations.g));
+  }
+  /// The part of a motion from `start` that nothing holds, undone.
+  [[nodiscard]] Eigen::Isometry3d withoutDrift(const Eigen::Isometry3d& start,
+                                               const Eigen::Isometry3d& X) const {
+    const Eigen::AngleAxisd turn(X.linear() * start.linear().transpose());
+    Vector6d motion;
+    motion << X.translation() - start.translation(), turn.angle() * turn.axis();
+    const auto weak = vectors.leftCols(first_held);
+    return moved(X, scale.asDiagonal() *
+                        -(weak * (weak.transpose() * scale.cwiseInverse().asDiagonal() * motion)));
+  }
+};
+
 ScanMatcher::ScanMatcher(Config config, std::shared_ptr<const SurfelMap> map)
     : config_(config), map_(std::move(map)) {
   KILN_CHECK(map_ != nullptr, config_.max_patches);
 }
 
-Result<ScanMatcher::Patches> ScanMatcher::prepare(const PointCloud& scan_base,
-                                                  const Eigen::Isometry3d& X_map_base_prior,
-                                                  const Eigen::Vector3d& p_base_sensor) const {
+Result<ScanMatcher::Scan> ScanMatcher::prepare(const PointCloud& scan_base,
+                                               const Eigen::Isometry3d& X_map_base_prior,
+                                               const Eigen::Vector3d& p_base_sensor) const {
   if (!isFinite(X_map_base_prior) || !p_base_sensor.allFinite())
     return makeError(ErrorCode::InvalidInput, "the pose prior is not finite");
   ScanReduction reduction;
   reduction.cell_m = config_.patch_m;
   reduction.max_range_m = config_.max_range_m;
   reduction.max_surfels = config_.max_patches;
-  Patches patches = reduceScan(scan_base, p_base_sensor, reduction);
-  if (static_cast<int>(patches.size()) < config_.min_patches) {
+  Scan scan{reduceScan(scan_base, p_base_sensor, reduction), {}};
+  if (static_cast<int>(scan.patches.size()) < config_.min_patches) {
     return makeError(ErrorCode::Degenerate,
                      "the scan of {} points has {} usable patches; {} are needed", scan_base.size(),
-                     patches.size(), config_.min_patches);
+                     scan.patches.size(), config_.min_patches);
   }
-  return patches;
+  if (!map_->posts().empty()) scan.edges = findEdges(scan_base, p_base_sensor, config_.max_edges);
+  return scan;
 }
 
 ScanMatcher::Share ScanMatcher::assign(const Eigen::Vector3f& q, const Eigen::Vector3f& view,
@@ -161,86 +203,115 @@ ScanMatcher::Share ScanMatcher::assign(const Eigen::Vector3f& q, const Eigen::Ve
   return share;
 }
 
-ScanMatcher::Equations ScanMatcher::linearise(std::span<const ScanSurfel> patches,
-                                              const Eigen::Isometry3d& X_map_base,
+ScanMatcher::Equations ScanMatcher::linearise(const Scan& scan, const Eigen::Isometry3d& X_map_base,
                                               const Stage& stage) const {
   Equations out;
   const Eigen::Matrix3f R = X_map_base.linear().cast<float>();
   const Eigen::Vector3f t = X_map_base.translation().cast<float>();
-  Eigen::Matrix3d tt = Eigen::Matrix3d::Zero(), tr = tt, rr = tt;
-  for (const ScanSurfel& patch : patches) {
+  for (const ScanSurfel& patch : scan.patches) {
     const Eigen::Vector3f lever = R * patch.mean;
     const Share share =
         assign(lever + t, R * patch.view, stage.level, static_cast<float>(stage.spread_m));
     if (share.weight < 1e-3F) continue;
     const double w = patch.weight;
-    const Eigen::Matrix3d A = w * share.A.cast<double>();
-    const Eigen::Vector3d pull = w * share.pull.cast<double>();
-    const Eigen::Matrix3d L = cross(lever.cast<double>());
-    const Eigen::Matrix3d LA = L * A;  // (d q / d rotation)^T A, with d q = -L d rotation
-    tt += A;
-    tr += LA.transpose();
-    rr += LA * L.transpose();
-    out.g.head<3>() += pull;
-    out.g.tail<3>() += L * pull;
-    out.weight += w * static_cast<double>(share.weight);
-    out.lever_squared +=
-        w * static_cast<double>(share.weight) * static_cast<double>(lever.squaredNorm());
+    out.add(w * share.A.cast<double>(), w * share.pull.cast<double>(), lever.cast<double>(),
+            w * static_cast<double>(share.weight));
   }
-  out.H.topLeftCorner<3, 3>() = tt;
-  out.H.topRightCorner<3, 3>() = tr;
-  out.H.bottomLeftCorner<3, 3>() = tr.transpose();
-  out.H.bottomRightCorner<3, 3>() = rr;
+  addEdges(scan.edges, X_map_base, stage, out);
   return out;
 }
 
-ScanMatch ScanMatcher::refine(std::span<const ScanSurfel> patches, const Eigen::Isometry3d& start,
+void ScanMatcher::addEdges(const std::vector<ScanEdge>& edges, const Eigen::Isometry3d& X_map_base,
+                           const Stage& stage, Equations& equations) const {
+  const Eigen::Matrix3f R = X_map_base.linear().cast<float>();
+  const Eigen::Vector3f t = X_map_base.translation().cast<float>();
+  const auto sensor = static_cast<float>(config_.sensor_sigma_m);
+  const auto spread = static_cast<float>(stage.spread_m);
+  for (const ScanEdge& edge : edges) {
+    const Eigen::Vector3f lever = R * edge.p, q = lever + t;
+    const Eigen::Vector2f free = (R * edge.free).head<2>();
+    Eigen::Vector2f pull = Eigen::Vector2f::Zero();
+    float weight = 0.0F, sum = kOutlier;
+    for (const Post& post : map_->posts()) {
+      const Eigen::Vector2f d = q.head<2>() - post.p;
+      const float variance = post.variance + sensor * sensor + spread * spread;
+      const float distance2 = d.squaredNorm() / variance;
+      if (distance2 > 16.0F || post.free.dot(free) < 0.3F || q.z() < post.z_min - kPostEnd_m ||
+          q.z() > post.z_max + kPostEnd_m) {
+        continue;
+      }
+      const float likelihood = std::exp(-0.5F * distance2);
+      const float w = likelihood * sensor * sensor / (sensor * sensor + post.variance);
+      sum += likelihood;
+      weight += w;
+      pull += w * d;
+    }
+    if (weight < 1e-3F) continue;
+    const double w = static_cast<double>(weight / sum);
+    const Eigen::Matrix3d A = Eigen::Vector3d(w, w, 0).asDiagonal();
+    equations.add(A, {static_cast<double>(pull.x() / sum), static_cast<double>(pull.y() / sum), 0},
+                  lever.cast<double>(), w);
+  }
+}
+
+ScanMatcher::Directions ScanMatcher::directions(const Equations& equations) const {
+  Directions out;
+  out.scale = equations.scale();
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(out.scale.asDiagonal() * equations.H *
+                                                       out.scale.asDiagonal());
+  out.information = solver.eigenvalues();
+  out.vectors = solver.eigenvectors();
+  while (out.first_held < 6 && !(out.information[out.first_held] >= config_.min_information))
+    ++out.first_held;
+  return out;
+}
+
+void ScanMatcher::iterate(const Scan& scan, const Stage& stage, const Directions* held,
+                          ScanMatch& match, Equations& equations) const {
+  for (int i = 0; i < stage.iterations; ++i) {
+    equations = linearise(scan, match.X_map_base, stage);
+    const Directions free = held != nullptr ? *held : directions(equations);
+    Vector6d step = free.step(equations);
+    // Beyond its reach an assignment says nothing about how far to go.
+    const double reach = std::max(0.05, 2.0 * map_->cellSize(stage.level));
+    if (step.norm() > reach) step *= reach / step.norm();
+    match.X_map_base = moved(match.X_map_base, free.scale.asDiagonal() * step);
+    ++match.iterations;
+    if (step.norm() < kConverged_m) break;
+  }
+}
+
+ScanMatch ScanMatcher::refine(const Scan& scan, const Eigen::Isometry3d& start,
                               std::span<const Stage> stages) const {
   ScanMatch out;
   out.X_map_base = start;
-  out.points = static_cast<int>(patches.size());
+  out.points = static_cast<int>(scan.patches.size());
   Equations equations;
-  for (const Stage& stage : stages) {
-    for (int i = 0; i < stage.iterations; ++i) {
-      equations = linearise(patches, out.X_map_base, stage);
-      const Vector6d scale = equations.scale();
-      const Matrix6d scaled = scale.asDiagonal() * equations.H * scale.asDiagonal();
-      const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(scaled);
-      const Vector6d g = solver.eigenvectors().transpose() * (scale.asDiagonal() * equations.g);
-      Vector6d step = Vector6d::Zero();
-      for (int k = 0; k < 6; ++k) {
-        if (solver.eigenvalues()[k] >= config_.min_information)
-          step[k] = -g[k] / solver.eigenvalues()[k];
-      }
-      // Beyond its reach an assignment says nothing about how far to go.
-      const double reach = std::max(0.05, 2.0 * map_->cellSize(stage.level));
-      if (step.norm() > reach) step *= reach / step.norm();
-      out.X_map_base = moved(out.X_map_base, scale.asDiagonal() * (solver.eigenvectors() * step));
-      ++out.iterations;
-      if (step.norm() < kConverged_m) break;
-    }
+  for (const Stage& stage : stages) iterate(scan, stage, nullptr, out, equations);
+  Directions held = directions(equations);
+  if (held.first_held > 0 && held.held() > 0) {
+    // Coarse levels may have thought otherwise: back to the prior there, and once more in the rest.
+    out.X_map_base = held.withoutDrift(start, out.X_map_base);
+    iterate(scan, stages.back(), &held, out, equations);
+    const int first_held = held.first_held;
+    held = directions(equations);
+    held.first_held = std::max(first_held, held.first_held);
   }
-  conclude(equations, out);
-  countInliers(patches, out);
+  conclude(held, out);
+  countInliers(scan.patches, out);
   return out;
 }
 
-void ScanMatcher::conclude(const Equations& equations, ScanMatch& match) const {
-  const Vector6d scale = equations.scale();
-  const Matrix6d scaled = scale.asDiagonal() * equations.H * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(scaled);
+void ScanMatcher::conclude(const Directions& held, ScanMatch& match) const {
   Vector6d variance;
-  match.observable_directions = 0;
   for (int k = 0; k < 6; ++k) {
-    const double information = solver.eigenvalues()[k];
-    const bool observable = information >= config_.min_information;
-    match.observable_directions += observable ? 1 : 0;
-    variance[k] = observable ? config_.residual_sigma_m * config_.residual_sigma_m / information
-                             : kUnobservable_m * kUnobservable_m;
+    variance[k] = k >= held.first_held
+                      ? config_.residual_sigma_m * config_.residual_sigma_m / held.information[k]
+                      : kUnobservable_m * kUnobservable_m;
   }
-  const Matrix6d covariance =
-      solver.eigenvectors() * variance.asDiagonal() * solver.eigenvectors().transpose();
-  match.covariance = scale.asDiagonal() * covariance * scale.asDiagonal();
+  match.observable_directions = held.held();
+  const Matrix6d covariance = held.vectors * variance.asDiagonal() * held.vectors.transpose();
+  match.covariance = held.scale.asDiagonal() * covariance * held.scale.asDiagonal();
   const double angle = config_.floor_sigma_deg * kDeg;
   match.covariance.diagonal().head<3>().array() += config_.floor_sigma_m * config_.floor_sigma_m;
   match.covariance.diagonal().tail<3>().array() += angle * angle;
@@ -280,11 +351,11 @@ Result<ScanMatch> ScanMatcher::judged(ScanMatch match, Stamp stamp) const {
 Result<ScanMatch> ScanMatcher::match(const PointCloud& scan_base,
                                      const Eigen::Isometry3d& X_map_base_prior,
                                      const Eigen::Vector3d& p_base_sensor) const {
-  const auto patches = prepare(scan_base, X_map_base_prior, p_base_sensor);
-  if (!patches) return tl::make_unexpected(patches.error());
+  const auto scan = prepare(scan_base, X_map_base_prior, p_base_sensor);
+  if (!scan) return tl::make_unexpected(scan.error());
   const int coarse = std::min(2, map_->config().levels - 1), middle = std::min(1, coarse);
   const std::array<Stage, 3> stages{{{coarse, 0.10, 3}, {middle, 0.05, 4}, {0, 0.02, 8}}};
-  return judged(refine(*patches, X_map_base_prior, stages), scan_base.stamp);
+  return judged(refine(*scan, X_map_base_prior, stages), scan_base.stamp);
 }
 
 }  // namespace kiln

@@ -30,8 +30,9 @@ struct ScanMatch {
 /// Registers scans with a surfel map by probabilistic assignment: each patch of the scan is
 /// shared among the map's surfels near it and an outlier class, finest known level first; Gauss-
 /// Newton on SE(3) moves the base, assignments and levels are refined from coarse to fine
-/// (Droeschel and Behnke, ICRA 2018). Directions that no surface holds (a corridor) are found from
-/// the eigenvalues of the information and left at the prior.
+/// (Droeschel and Behnke, ICRA 2018). The scan's upright edges are drawn to the map's posts.
+/// Directions that no surface holds (a corridor) are found from the eigenvalues of the information
+/// and left at the prior.
 ///
 /// Thread-compatible; const calls from several threads are safe. Cost: tests/bench/localization.
 class ScanMatcher {
@@ -44,7 +45,8 @@ class ScanMatcher {
     double sensor_sigma_m = 0.012;  ///< of a patch: lasers differ by a fixed bias
     double inlier_distance_m = 0.05;
     double min_inlier_fraction = 0.35;  ///< below: the pose is not believed
-    double min_information = 8.0;       ///< effective patches that must hold a direction
+    int max_edges = 160;                ///< ends of surfaces, matched with the map's posts
+    double min_information = 5.0;       ///< effective patches that must hold a direction
     double residual_sigma_m = 0.10;     ///< a patch's weight in the covariance; above the sensor's
                                         ///< noise because errors are correlated
     double floor_sigma_m = 0.008;       ///< never believe more than this (map, extrinsics)
@@ -83,26 +85,37 @@ class ScanMatcher {
   static inline const Eigen::Vector3d kDrivingSensor{0.55, 0.0, 1.45};
 
  private:
-  using Patches = std::vector<ScanSurfel>;
+  /// What registration needs of a scan.
+  struct Scan {
+    std::vector<ScanSurfel> patches;
+    std::vector<ScanEdge> edges;
+    [[nodiscard]] Scan thinned(int max_patches) const;
+  };
   struct Stage {
     int level;
     double spread_m;  ///< added to the surfels' thickness: how far a patch may look
     int iterations;
   };
   struct Equations;
+  struct Directions;
   struct Share;
-  [[nodiscard]] Result<Patches> prepare(const PointCloud& scan_base,
-                                        const Eigen::Isometry3d& X_map_base_prior,
-                                        const Eigen::Vector3d& p_base_sensor) const;
+  [[nodiscard]] Result<Scan> prepare(const PointCloud& scan_base,
+                                     const Eigen::Isometry3d& X_map_base_prior,
+                                     const Eigen::Vector3d& p_base_sensor) const;
   [[nodiscard]] Share assign(const Eigen::Vector3f& p_map, const Eigen::Vector3f& view, int level,
                              float spread_m) const;
-  [[nodiscard]] Equations linearise(std::span<const ScanSurfel> patches,
-                                    const Eigen::Isometry3d& X_map_base, const Stage& stage) const;
+  [[nodiscard]] Equations linearise(const Scan& scan, const Eigen::Isometry3d& X_map_base,
+                                    const Stage& stage) const;
+  void addEdges(const std::vector<ScanEdge>& edges, const Eigen::Isometry3d& X_map_base,
+                const Stage& stage, Equations& equations) const;
+  [[nodiscard]] Directions directions(const Equations& equations) const;
+  /// Iterates one stage; along directions that `held` leaves out the pose stays.
+  void iterate(const Scan& scan, const Stage& stage, const Directions* held, ScanMatch& match,
+               Equations& equations) const;
   /// Runs the stages; sets pose, iterations and what follows from the last equations.
-  [[nodiscard]] ScanMatch refine(std::span<const ScanSurfel> patches,
-                                 const Eigen::Isometry3d& start,
+  [[nodiscard]] ScanMatch refine(const Scan& scan, const Eigen::Isometry3d& start,
                                  std::span<const Stage> stages) const;
-  void conclude(const Equations& equations, ScanMatch& match) const;
+  void conclude(const Directions& directions, ScanMatch& match) const;
   void countInliers(std::span<const ScanSurfel> patches, ScanMatch& match) const;
   [[nodiscard]] Result<ScanMatch> judged(ScanMatch match, Stamp stamp) const;
   [[nodiscard]] double score(std::span<const ScanSurfel> patches,

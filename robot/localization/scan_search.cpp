@@ -12,14 +12,6 @@ constexpr double kDeg = M_PI / 180.0;
 constexpr double kSamePlace_m = 0.15, kSamePlace_rad = 2.5 * kDeg;
 constexpr double kOtherPlace_m = 0.30, kOtherPlace_rad = 5.0 * kDeg;
 
-std::vector<ScanSurfel> thinned(std::span<const ScanSurfel> patches, int count) {
-  const auto limit = std::min(patches.size(), static_cast<std::size_t>(count));
-  std::vector<ScanSurfel> out;
-  out.reserve(limit);
-  for (std::size_t i = 0; i < limit; ++i) out.push_back(patches[i * patches.size() / limit]);
-  return out;
-}
-
 bool within(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, double metres, double radians) {
   const Eigen::Isometry3d difference = a.inverse() * b;
   return difference.translation().norm() < metres && rotationAngle(difference) < radians;
@@ -35,6 +27,14 @@ Eigen::Isometry3d shifted(const Eigen::Isometry3d& prior, double x, double y, do
 }
 
 }  // namespace
+
+ScanMatcher::Scan ScanMatcher::Scan::thinned(int max_patches) const {
+  const auto limit = std::min(patches.size(), static_cast<std::size_t>(max_patches));
+  Scan out{{}, edges};
+  for (std::size_t i = 0; i < limit; ++i)
+    out.patches.push_back(patches[i * patches.size() / limit]);
+  return out;
+}
 
 double ScanMatcher::score(std::span<const ScanSurfel> patches,
                           const Eigen::Isometry3d& X_map_base) const {
@@ -90,15 +90,15 @@ std::vector<Eigen::Isometry3d> ScanMatcher::candidates(std::span<const ScanSurfe
 Result<ScanMatch> ScanMatcher::search(const PointCloud& scan_base,
                                       const Eigen::Isometry3d& X_map_base_prior,
                                       const Eigen::Vector3d& p_base_sensor) const {
-  const auto patches = prepare(scan_base, X_map_base_prior, p_base_sensor);
-  if (!patches) return tl::make_unexpected(patches.error());
+  const auto scan = prepare(scan_base, X_map_base_prior, p_base_sensor);
+  if (!scan) return tl::make_unexpected(scan.error());
   const int coarse = std::min(2, map_->config().levels - 1), middle = std::min(1, coarse);
   const std::array<Stage, 3> rough{{{coarse, 0.25, 6}, {coarse, 0.10, 5}, {middle, 0.05, 5}}};
   const std::array<Stage, 2> fine{{{middle, 0.05, 4}, {0, 0.02, 10}}};
-  const std::vector<ScanSurfel> few = thinned(*patches, config_.search_patches);
-  const std::vector<ScanSurfel> some = thinned(*patches, 2 * config_.search_patches);
+  const Scan few = scan->thinned(config_.search_patches);
+  const Scan some = scan->thinned(2 * config_.search_patches);
   std::vector<ScanMatch> found;
-  for (const Eigen::Isometry3d& start : candidates(few, X_map_base_prior)) {
+  for (const Eigen::Isometry3d& start : candidates(few.patches, X_map_base_prior)) {
     const ScanMatch rough_match = refine(some, start, rough);
     const bool known = std::any_of(found.begin(), found.end(), [&](const ScanMatch& other) {
       return within(rough_match.X_map_base, other.X_map_base, kSamePlace_m, kSamePlace_rad);
@@ -110,7 +110,7 @@ Result<ScanMatch> ScanMatcher::search(const PointCloud& scan_base,
   };
   std::stable_sort(found.begin(), found.end(), better);
   if (found.size() > 4) found.resize(4);
-  for (ScanMatch& match : found) match = refine(*patches, match.X_map_base, fine);
+  for (ScanMatch& match : found) match = refine(*scan, match.X_map_base, fine);
   std::stable_sort(found.begin(), found.end(), better);
   for (std::size_t i = 1; i < found.size(); ++i) {
     if (within(found[0].X_map_base, found[i].X_map_base, kOtherPlace_m, kOtherPlace_rad)) continue;

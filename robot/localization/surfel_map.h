@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include "common/config/config_archive.h"
+#include "robot/localization/posts.h"
 #include "robot/localization/surfel.h"
 
 namespace kiln {
@@ -57,6 +58,10 @@ class SurfelMap {
   /// Coarser levels and planes from the sums; about 30 ms for 40,000 surfels.
   void refresh();
 
+  /// Upright edges that hold the directions in which planes say nothing.
+  void setPosts(std::vector<Post> posts) { posts_ = std::move(posts); }
+  [[nodiscard]] const std::vector<Post>& posts() const { return posts_; }
+
   struct Neighbours {
     std::array<const Surfel*, 16> surfels;
     int size = 0;
@@ -103,6 +108,7 @@ class SurfelMap {
   Config config_;
   Eigen::Vector3d p_map_center_;
   std::vector<Level> levels_;
+  std::vector<Post> posts_;
   std::map<ScanId, std::vector<Share>> scans_;
   ScanId next_scan_ = 1;
 };

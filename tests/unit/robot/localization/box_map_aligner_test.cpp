@@ -115,7 +115,7 @@ TEST_F(BoxMapAlignerTest, RefusesAScanThatShowsOtherWalls) {
   ScanSettings settings;
   settings.boxes = {makeBox(3.0, 1.0, 1.5, 0.3, 3.0, 3), makeBox(-2.0, -2.6, 1.5, 4.0, 0.3, 3)};
   const auto found =
-      aligner_.align(castScan(settings, {}), settings.p_base_sensor, {9.0, 0.0, 0.0});
+      aligner_.align(castScan(settings, Pose2{}), settings.p_base_sensor, {9.0, 0.0, 0.0});
   ASSERT_FALSE(found.has_value());
   EXPECT_EQ(found.error().code, ErrorCode::Degenerate);
 }

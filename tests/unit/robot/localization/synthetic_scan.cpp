@@ -55,25 +55,29 @@ std::vector<BoxConfig> moved(std::vector<BoxConfig> boxes, double metres, std::u
   return boxes;
 }
 
-PointCloud castScan(const ScanSettings& settings, const Pose2& X_map_base) {
+PointCloud castScan(const ScanSettings& settings, const Eigen::Isometry3d& X_map_base) {
   std::mt19937 random(settings.seed);
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> uniform;
   std::array<double, 16> bias{};
   for (double& b : bias) b = settings.bias_sigma_m * normal(random);
-  const Eigen::Isometry3d X = toIsometry(X_map_base);
-  std::vector<Eigen::Isometry3d> X_box_base;
-  for (const BoxConfig& box : settings.boxes) X_box_base.push_back(box.center.pose().inverse() * X);
+  const Eigen::Isometry3d X_map_sensor =
+      X_map_base * Eigen::Translation3d(settings.p_base_sensor) * settings.X_sensor_truesensor;
+  std::vector<Eigen::Isometry3d> X_box_sensor;
+  for (const BoxConfig& box : settings.boxes)
+    X_box_sensor.push_back(box.center.pose().inverse() * X_map_sensor);
   PointCloud cloud;
   cloud.frame = "base";
   for (int azimuth = 0; azimuth < settings.directions; ++azimuth) {
     for (int ring = 0; ring < 16; ++ring) {
       const double a = azimuth * 2.0 * M_PI / settings.directions, e = (-15.0 + 2.0 * ring) * kDeg;
       const Eigen::Vector3d ray(std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e));
-      double range = settings.p_base_sensor.z() / std::max(1e-9, -ray.z());  // the floor
+      const double down = -(X_map_sensor.linear() * ray).z();
+      double range =
+          settings.flat_floor ? X_map_sensor.translation().z() / std::max(1e-9, down) : 1e9;
       for (std::size_t i = 0; i < settings.boxes.size(); ++i) {
-        range = std::min(range, slab(X_box_base[i] * settings.p_base_sensor,
-                                     X_box_base[i].linear() * ray, settings.boxes[i].size_m));
+        range = std::min(range, slab(X_box_sensor[i].translation(), X_box_sensor[i].linear() * ray,
+                                     settings.boxes[i].size_m));
       }
       if (range > 100.0 || uniform(random) < settings.dropout) continue;
       if (uniform(random) < settings.random_return_fraction) range *= 0.1 + 0.9 * uniform(random);
@@ -84,6 +88,10 @@ PointCloud castScan(const ScanSettings& settings, const Pose2& X_map_base) {
     }
   }
   return cloud;
+}
+
+PointCloud castScan(const ScanSettings& settings, const Pose2& X_map_base) {
+  return castScan(settings, toIsometry(X_map_base));
 }
 
 }  // namespace kiln::testing

@@ -21,10 +21,15 @@ struct ScanSettings {
       0.0;  ///< rays that end somewhere before the wall: hose, dust, people
   int directions = 900;
   std::uint32_t seed = 1;
+  bool flat_floor = true;  ///< z = 0 everywhere; false: only what `boxes` hold
+  /// True against configured place of the LiDAR.
+  Eigen::Isometry3d X_sensor_truesensor = Eigen::Isometry3d::Identity();
 };
 
 /// 16 lasers from -15 to 15 deg, `directions` a laser; a slab test against each box. Points in
 /// base.
+[[nodiscard]] PointCloud castScan(const ScanSettings& settings,
+                                  const Eigen::Isometry3d& X_map_base);
 [[nodiscard]] PointCloud castScan(const ScanSettings& settings, const Pose2& X_map_base);
 
 /// Furniture and fire boxes moved by up to `metres` and 5 deg.
