@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 
+#include "common/model/localization.h"
 #include "robot/localization/localizer.h"
 #include "robot/localization/scan_locator.h"
 
@@ -19,8 +20,13 @@ struct LocalizationSettings {
   [[nodiscard]] Localizer::Config localizerConfig() const;  ///< as the method wants it
 };
 
-/// Error: InvalidInput for an unknown method; what loading the map says.
-[[nodiscard]] Result<std::unique_ptr<ScanLocator>> makeLocator(const LocalizationSettings& settings,
-                                                               const ArenaMap& arena);
+struct Location {
+  std::unique_ptr<ScanLocator> locator;
+  std::shared_ptr<const MapLayer> layer;  ///< the map to draw; null without a map
+};
+/// Error: InvalidInput for an unknown method, a map of another arena or one without its two parts;
+/// what loading the map says.
+[[nodiscard]] Result<Location> makeLocation(const LocalizationSettings& settings,
+                                            const ArenaMap& arena);
 
 }  // namespace kiln

@@ -36,7 +36,7 @@ Robot::Impl::Impl(const RobotSettings& settings_in, const RobotOptions& options_
                   Devices devices_in, const Clock& clock_in, Executor& executor,
                   OperatorLink* link_in, StopLatch& stop_in, RobotGeometry robot_in,
                   ArenaMap arena_in, const SprayCalibration& spray_in, std::vector<Macro> macros_in,
-                  std::unique_ptr<ScanLocator> locator_in)
+                  Location location)
     : settings(settings_in),
       options(options_in),
       devices(std::move(devices_in)),
@@ -49,7 +49,8 @@ Robot::Impl::Impl(const RobotSettings& settings_in, const RobotOptions& options_
       arm(settings.arm, robot, devices.arm, stop),
       pumps(settings.pumps, devices.pumps, stop),
       self_filter(robot, settings.self_filter),
-      locator(std::move(locator_in)),
+      locator(std::move(location.locator)),
+      map_layer(std::move(location.layer)),
       detector(settings.heat_detector),
       localizer(settings.localization.localizerConfig(), arena, robot),
       perception(settings.perception, executor, robot, history, self_filter, *locator, detector,
@@ -94,6 +95,7 @@ void Robot::Impl::start(Executor& executor) {
   executor.every(kMissionPeriod, "mission", kPriorityMission, [this](Stamp t) { missionTick(t); });
   telemetry.publish(mission.machine().info());
   telemetry.publish(macros.list());
+  if (map_layer) telemetry.publish(map_layer);
 }
 
 void Robot::Impl::controlTick(Stamp now) {
@@ -256,11 +258,11 @@ Result<std::unique_ptr<Robot>> Robot::create(const RobotSettings& settings,
   if (!folder) return tl::make_unexpected(folder.error());
   auto macros = loadMacros(*folder);
   if (!macros) return tl::make_unexpected(macros.error());
-  auto locator = makeLocator(settings.localization, *arena);
-  if (!locator) return tl::make_unexpected(locator.error());
+  auto location = makeLocation(settings.localization, *arena);
+  if (!location) return tl::make_unexpected(location.error());
   auto impl = std::make_unique<Impl>(settings, options, std::move(devices), clock, executor, link,
                                      stop, std::move(*robot), std::move(*arena), *spray,
-                                     std::move(*macros), std::move(*locator));
+                                     std::move(*macros), std::move(*location));
   impl->start(executor);
   if (options.resume) {
     if (auto resumed = impl->resume(clock.now()); !resumed)

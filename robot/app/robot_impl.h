@@ -19,7 +19,7 @@ struct Robot::Impl {
   Impl(const RobotSettings& settings_in, const RobotOptions& options_in, Devices devices_in,
        const Clock& clock_in, Executor& executor, OperatorLink* link_in, StopLatch& stop_in,
        RobotGeometry robot_in, ArenaMap arena_in, const SprayCalibration& spray_in,
-       std::vector<Macro> macros_in, std::unique_ptr<ScanLocator> locator_in);
+       std::vector<Macro> macros_in, Location location);
   void start(Executor& executor);
   void controlTick(Stamp now);
   void missionTick(Stamp now);
@@ -68,6 +68,7 @@ struct Robot::Impl {
   StateHistory history;
   SelfFilter self_filter;
   std::unique_ptr<ScanLocator> locator;
+  std::shared_ptr<const MapLayer> map_layer;
   HeatDetector detector;
   Localizer localizer;
   TrackedPose tracked;
