@@ -11,7 +11,8 @@ namespace kiln {
 
 /// How the robot finds out where it is.
 struct LocalizationSettings {
-  std::string method = "walls";  ///< "surfel_map", "walls" (no map needed, level floor), "odometry"
+  std::string method =
+      "surfel_map";  ///< or "walls" (no map needed, level floor), "odometry" (to compare with)
   std::string map = "maps/kitchen.map";  ///< resource, of kiln-eval map
   Localizer::Config localizer;
   ScanMatcher::Config matcher;

@@ -5,7 +5,9 @@ namespace kiln {
 const std::vector<Evaluation>& evaluations() {
   static const std::vector<Evaluation> all = {
       {"fire",
-       "fire mission in the flat world, one process each for world and robot, lockstep",
+       "fire mission, one process each for world and robot, lockstep; full world, or --world of "
+       "the "
+       "flat one",
        evaluateFire,
        {1, 20, 1, ""}},
       {"localization",

@@ -6,6 +6,7 @@
 #include "common/config/resources.h"
 #include "common/core/atomic_file.h"
 #include "robot/evaluation/evaluation.h"
+#include "robot/evaluation/map_command.h"
 #include "robot/evaluation/mission_run.h"
 #include "robot/evaluation/trajectory_figure.h"
 
@@ -120,6 +121,21 @@ int main(int argc, char** argv) {
   run->add_option("--wall-limit-s", run_options.wall_limit_s, "end a run that takes longer")
       ->default_val(1200.0);
 
+  MapCommandOptions map_options;
+  auto* map = app.add_subcommand("map", "builds the localisation map from recorded runs");
+  map->add_option("recordings", map_options.recordings,
+                  "of kiln-robotd --record; the first begins at the arena's start pose")
+      ->required()
+      ->check(CLI::ExistingFile);
+  map->add_option("-o,--out", map_options.out, "map file")->required();
+  map->add_option("--arena", map_options.arena, "resource: walls and start pose")
+      ->capture_default_str();
+  map->add_option("--geometry", map_options.geometry, "resource: the robot's geometry")
+      ->capture_default_str();
+  map->add_option("--pcd", map_options.pcd, "also write the surfels as PCD");
+  map->add_option("--ply", map_options.ply, "also write the surfels as PLY");
+  map->add_option("--json", map_options.json, "also write the report as JSON");
+
   auto* list = app.add_subcommand("list", "names the evaluations");
   std::string seeds, json_path;
   SweepOptions sweep;
@@ -141,6 +157,12 @@ int main(int argc, char** argv) {
   if (*list) {
     for (const Evaluation& evaluation : evaluations())
       fmt::print("{:<20} {}\n", evaluation.name, evaluation.doc);
+    return kSuccess;
+  }
+  if (*map) {
+    const auto report = makeMap(map_options);
+    if (!report) return fail(report.error());
+    fmt::print("{}", *report);
     return kSuccess;
   }
   if (*run) {
