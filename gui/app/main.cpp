@@ -15,6 +15,7 @@
 #include "gui/app/stall_meter.h"
 #include "gui/app/stop_probe.h"
 #include "gui/link/fake_link.h"
+#include "gui/link/replay_link.h"
 #include "gui/link/robot_link.h"
 #include "gui/views/scene3d/scene_renderer.h"
 
@@ -48,6 +49,11 @@ bool haveDisplay() {
 }
 
 Result<std::unique_ptr<Link>> makeLink(const StationOptions& options) {
+  if (!options.replay.empty()) {
+    auto replay = ReplayLink::open(options.replay);
+    if (!replay) return tl::make_unexpected(replay.error());
+    return std::unique_ptr<Link>(std::move(*replay));
+  }
   if (!options.fake) {
     auto live = std::make_unique<RobotLink>(
         RobotLink::Options{options.endpoint, options.operator_name, KILN_VERSION});
@@ -85,7 +91,9 @@ int run(int argc, char** argv, const StationOptions& options) {
   Link* const link = made->get();
   StationModels models(*link);
   const SteadyClock steady;
-  MainWindow window({theme, steady}, models, {geometry, !options.flat && openGlAvailable()});
+  MainWindow window(
+      {theme, steady}, models,
+      {geometry, !options.flat && openGlAvailable(), qobject_cast<ReplayLink*>(link)});
   window.resize(options.width, options.height);
   window.show();
   StallMeter stalls(steady);

@@ -12,6 +12,8 @@
 #include "gui/views/fsm_graph/fsm_tile.h"
 #include "gui/views/log/log_view.h"
 #include "gui/views/macros/macros_tile.h"
+#include "gui/views/record/record_chip.h"
+#include "gui/views/replay/replay_bar.h"
 #include "gui/views/scene3d/scene_tile.h"
 #include "gui/views/state_card/state_card.h"
 #include "gui/views/teleop/teleop_tile.h"
@@ -54,6 +56,10 @@ MainWindow::MainWindow(const Ui& ui, StationModels& models, const Options& optio
   column->setSpacing(kGap_px);
   column->addWidget(top_bar_);
   column->addLayout(makeMiddle(options), 1);
+  if (options.replay) {
+    replay_bar_ = new ReplayBar(ui_, *options.replay);
+    column->addWidget(replay_bar_);
+  }
   column->addWidget(makeBottom());
   column->addWidget(alarms_);
   connect(alarms_, &AlarmStrip::logRequested, this, [this] { showLog(log_tile_->isHidden()); });
@@ -133,6 +139,7 @@ QWidget* MainWindow::makeBottom() {
   timeline_ = new TimelineView(ui_, models_);
   timeline_tile_ = new Tile(ui_, tr("Timeline"));
   timeline_tile_->setContent(timeline_);
+  timeline_tile_->addHeaderWidget(new RecordChip(ui_, models_));
   log_tile_ = new Tile(ui_, tr("Event log"));
   log_tile_->setContent(new LogView(ui_, models_));
   log_tile_->hide();
@@ -152,6 +159,7 @@ void MainWindow::refreshTimelineTile() {
 }
 
 MainWindow::Frame MainWindow::frame() const {
+  if (models_.link.readOnly()) return Frame::Replay;
   if (!models_.status.hasData()) return Frame::None;
   const LinkState link = models_.link_state.health().state;
   if (models_.status.ageLevel() != AgeLevel::Fresh || link == LinkState::Degraded ||
@@ -173,7 +181,10 @@ void MainWindow::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   painter.fillRect(rect(), p.ground);
   if (shown_frame_ == Frame::None) return;
-  painter.setPen(QPen(shown_frame_ == Frame::Driving ? p.manual : p.caution, kFrame_px));
+  painter.setPen(QPen(shown_frame_ == Frame::Driving  ? p.manual
+                      : shown_frame_ == Frame::Replay ? p.replay
+                                                      : p.caution,
+                      kFrame_px));
   painter.drawRect(QRectF(rect()).adjusted(kFrame_px / 2.0, kFrame_px / 2.0, -kFrame_px / 2.0,
                                            -kFrame_px / 2.0));
 }
@@ -204,6 +215,7 @@ bool MainWindow::eventFilter(QObject* watched, QEvent* event) {
       return true;
     }
     const bool typing = qobject_cast<QLineEdit*>(QApplication::focusWidget()) != nullptr;
+    if (event->type() == QEvent::KeyPress && !typing && handleReplayKey(*key)) return true;
     const bool plain = (key->modifiers() & ~Qt::KeypadModifier) == Qt::NoModifier;
     if (event->type() == QEvent::KeyPress && plain && !key->isAutoRepeat() &&
         handleKey(key->key(), typing))
@@ -212,9 +224,37 @@ bool MainWindow::eventFilter(QObject* watched, QEvent* event) {
   return QWidget::eventFilter(watched, event);
 }
 
+bool MainWindow::handleReplayKey(const QKeyEvent& key) {
+  if (!replay_bar_) return false;
+  const bool shift = key.modifiers() & Qt::ShiftModifier;
+  switch (key.key()) {
+    case Qt::Key_P:
+      if (!key.isAutoRepeat()) replay_bar_->togglePlaying();
+      return true;
+    case Qt::Key_Comma:
+    case Qt::Key_Less:
+      replay_bar_->step(shift ? -ReplayBar::kJump_s : -ReplayBar::kStep_s);
+      return true;
+    case Qt::Key_Period:
+    case Qt::Key_Greater:
+      replay_bar_->step(shift ? ReplayBar::kJump_s : ReplayBar::kStep_s);
+      return true;
+    case Qt::Key_BracketLeft:
+      replay_bar_->changeSpeed(-1);
+      return true;
+    case Qt::Key_BracketRight:
+      replay_bar_->changeSpeed(+1);
+      return true;
+    default:
+      return false;
+  }
+}
+
 bool MainWindow::handleKey(int key, bool typing) {
   if (key == Qt::Key_Escape) {
     jump_.cancel();
+    scene_->posePlacer().cancel();
+    scene_->placeNudge().cancel();
     fsm_->endSearch();
     return true;
   }

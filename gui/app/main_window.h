@@ -17,6 +17,8 @@ class ActButton;
 class AlarmStrip;
 class FsmTile;
 class MacrosTile;
+class ReplayBar;
+class ReplayLink;
 class SceneTile;
 class StateCard;
 class TeleopTile;
@@ -31,12 +33,15 @@ class MainWindow : public QWidget {
   struct Options {
     RobotGeometry geometry;
     bool open_gl = true;
+    ReplayLink* replay = nullptr;  ///< the models' link, if it is a recording
   };
   MainWindow(const Ui& ui, StationModels& models, const Options& options);
   ~MainWindow() override;
   [[nodiscard]] TopBar* topBar() const { return top_bar_; }
   [[nodiscard]] FsmTile* fsmTile() const { return fsm_; }
   [[nodiscard]] StateCard* stateCard() const { return state_; }
+  [[nodiscard]] SceneTile* sceneTile() const { return scene_; }
+  [[nodiscard]] ReplayBar* replayBar() const { return replay_bar_; }  ///< null without a replay
   [[nodiscard]] AlarmStrip* alarmStrip() const { return alarms_; }
   [[nodiscard]] ForcedJump& jump() { return jump_; }
   void showLog(bool shown);
@@ -47,7 +52,7 @@ class MainWindow : public QWidget {
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
-  enum class Frame { None, Driving, Degraded };
+  enum class Frame { None, Driving, Degraded, Replay };
   [[nodiscard]] Frame frame() const;
   QBoxLayout* makeMiddle(const Options& options);
   QWidget* makeRight();
@@ -56,6 +61,7 @@ class MainWindow : public QWidget {
   void refreshFrame();
   void refreshTimelineTile();
   bool handleKey(int key, bool typing);
+  bool handleReplayKey(const QKeyEvent& key);
   Ui ui_;
   StationModels& models_;
   ForcedJump jump_;
@@ -75,6 +81,7 @@ class MainWindow : public QWidget {
   TimelineView* timeline_ = nullptr;
   Tile* log_tile_ = nullptr;
   AlarmStrip* alarms_;
+  ReplayBar* replay_bar_ = nullptr;
   Frame shown_frame_ = Frame::None;
 };
 

@@ -14,6 +14,7 @@ struct StationOptions {
   std::string operator_name = "operator";
   ThemeKind theme = ThemeKind::Dark;
   std::string screenshots;            ///< folder; empty = none
+  std::string replay;                 ///< recording to play; empty = none
   std::optional<std::uint64_t> fake;  ///< seed
   double fake_speed = 1.0;
   int width = 1680, height = 1020;

@@ -42,6 +42,15 @@ int watch(Console& console, double period_s, double seconds) {
   return kDone;
 }
 
+int showLocalization(Console& console) {
+  if (!console.connect()) return kNoLink;
+  if (!console.waitFor([&] { return console.localizationKnown(); }, kOptionalTopic_s))
+    return console.fail(kRefused, "the robot does not tell where it is; does it localise?");
+  const LocalizationStatus status = *console.localization();
+  console.print(toJson(status), oneLine(status));
+  return kDone;
+}
+
 int listMacros(Console& console) {
   if (!console.connect()) return kNoLink;
   for (int i = 0; i < 25 && console.macros().empty() && !signalled(); ++i)

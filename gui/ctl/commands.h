@@ -14,6 +14,7 @@ namespace kiln::ctl {
 [[nodiscard]] int listMacros(Console& console);
 [[nodiscard]] int listAlarms(Console& console);
 /// Takes control, sends, waits for the answer, gives control back.
+[[nodiscard]] int showLocalization(Console& console);
 [[nodiscard]] int commandWithControl(Console& console, CommandBody body);
 /// @param from  empty: the state that the robot is in now.
 [[nodiscard]] int transition(Console& console, const std::string& from, const std::string& to);

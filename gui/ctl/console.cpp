@@ -30,6 +30,9 @@ OperatorSession::Callbacks Console::callbacks() {
   };
   callbacks.on_status = [this, keep](const RobotStatus& v, const Arrival&) { keep(status_, v); };
   callbacks.on_fsm_status = [this, keep](const FsmStatus& v, const Arrival&) { keep(fsm_, v); };
+  callbacks.on_localization = [this, keep](const LocalizationStatus& v, const Arrival&) {
+    keep(localization_, v);
+  };
   callbacks.on_macros = [this, keep](const std::vector<MacroInfo>& v, const Arrival&) {
     keep(macros_, v);
   };
@@ -51,7 +54,7 @@ bool Console::open() {
   config.operator_name = options_.name;
   config.program_version = KILN_VERSION;
   config.role = options_.role;
-  config.topics = {Topic::RobotStatus, Topic::FsmStatus, Topic::Macros};
+  config.topics = {Topic::RobotStatus, Topic::FsmStatus, Topic::Macros, Topic::Localization};
   auto session = OperatorSession::open(std::move(config), callbacks(), clock_);
   if (!session) {
     fail(kNoLink, session.error().message);
@@ -172,6 +175,11 @@ RobotStatus Console::status() const {
 std::optional<FsmStatus> Console::fsm() const {
   const std::lock_guard lock(mutex_);
   return fsm_;
+}
+
+std::optional<LocalizationStatus> Console::localization() const {
+  const std::lock_guard lock(mutex_);
+  return localization_;
 }
 
 std::vector<MacroInfo> Console::macros() const {

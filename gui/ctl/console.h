@@ -61,6 +61,9 @@ class Console {
   [[nodiscard]] RobotStatus status() const;
   [[nodiscard]] std::optional<FsmStatus> fsm() const;
   [[nodiscard]] std::vector<MacroInfo> macros() const;
+  [[nodiscard]] std::optional<LocalizationStatus> localization() const;
+  /// For conditions of waitFor(): the lock is held.
+  [[nodiscard]] bool localizationKnown() const { return localization_.has_value(); }
   /// First refusal since the last call: of a setpoint that is being held.
   [[nodiscard]] std::optional<CommandUpdate> takeRefusal();
   [[nodiscard]] const Options& options() const { return options_; }
@@ -77,6 +80,7 @@ class Console {
   std::condition_variable changed_;
   std::optional<RobotStatus> status_;  // guarded by mutex_, as all below
   std::optional<FsmStatus> fsm_;
+  std::optional<LocalizationStatus> localization_;
   std::optional<std::vector<MacroInfo>> macros_;
   std::map<std::uint64_t, CommandUpdate> fates_;
   std::optional<CommandUpdate> refusal_;

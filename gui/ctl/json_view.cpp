@@ -35,7 +35,10 @@ const char* environmentName(Environment environment) {
 json listsOf(const RobotStatus& status) {
   json lists;
   for (const Check& check : status.checks) {
-    lists["checks"].push_back({{"name", check.name}, {"ok", check.ok}, {"detail", check.detail}});
+    lists["checks"].push_back({{"name", check.name},
+                               {"ok", check.ok},
+                               {"detail", check.detail},
+                               {"action", check.action}});
   }
   for (const Alarm& alarm : status.alarms) lists["alarms"].push_back(toJson(alarm));
   for (const DropCount& drop : status.drops) lists["drops"][drop.topic] = drop.dropped;
@@ -171,6 +174,39 @@ std::string oneLine(const RobotStatus& status, const std::optional<FsmStatus>& f
                      status.stop.latched ? fmt::format("STOP by {}  ", status.stop.source) : "",
                      status.X_map_base.x_m, status.X_map_base.y_m,
                      status.X_map_base.yaw_rad * kDegrees, status.water.sprayed_l_est,
+                     status.reason.empty() ? "" : "  " + status.reason);
+}
+
+json toJson(const LocalizationStatus& status) {
+  const Pose2 pose = projectToGround(status.X_map_base);
+  json out{{"health", std::string(toString(status.health))},
+           {"reason", status.reason},
+           {"method", status.method},
+           {"submap", status.submap},
+           {"x_m", pose.x_m},
+           {"y_m", pose.y_m},
+           {"z_m", status.X_map_base.translation().z()},
+           {"yaw_deg", pose.yaw_rad * kDegrees},
+           {"sigma_m", status.sigma_m},
+           {"sigma_yaw_deg", status.sigma_yaw_rad * kDegrees},
+           {"match_age_s", status.match_age_s},
+           {"inlier_fraction", status.inlier_fraction},
+           {"observable_directions", status.observable_directions},
+           {"matches", status.matches},
+           {"rejected", status.rejected},
+           {"resets", status.resets}};
+  if (status.tracking_error_m) out["tracking_error_m"] = *status.tracking_error_m;
+  return out;
+}
+
+std::string oneLine(const LocalizationStatus& status) {
+  const Pose2 pose = projectToGround(status.X_map_base);
+  return fmt::format("{}  {:.3f} m {:.2f} deg  pose {:.2f} {:.2f} m {:.1f} deg  {} {}  {}{}",
+                     toString(status.health), status.sigma_m, status.sigma_yaw_rad * kDegrees,
+                     pose.x_m, pose.y_m, pose.yaw_rad * kDegrees, status.method, status.submap,
+                     status.match_age_s < 0.0
+                         ? "never matched"
+                         : fmt::format("matched {:.1f} s ago", status.match_age_s),
                      status.reason.empty() ? "" : "  " + status.reason);
 }
 

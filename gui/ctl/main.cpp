@@ -1,4 +1,5 @@
 #include <array>
+#include <cmath>
 #include <cstdlib>
 
 #include <CLI/CLI.hpp>
@@ -85,6 +86,42 @@ void addMission(CLI::App& app, Request& request) {
                                                        : kiln::Mode::Autonomous;
     request.run = [wanted](Console& console) {
       return kiln::ctl::commandWithControl(console, kiln::SetMode{wanted});
+    };
+  });
+}
+
+void addPlaces(CLI::App& app, Request& request) {
+  app.add_subcommand("localization", "where the robot believes to be, and how sure it is")
+      ->callback([&request] {
+        request.options.role = kiln::ClientRole::Viewer;
+        request.run = kiln::ctl::showLocalization;
+      });
+  CLI::App* pose =
+      app.add_subcommand("pose", "pose X Y YAW_DEG: tell the robot where it stands, in map");
+  pose->add_option("POSE", request.base, "m, m, degrees")->required();
+  pose->callback([&request] {
+    request.run = [&request](Console& console) {
+      const auto& [x, y, yaw_deg] = request.base;
+      return kiln::ctl::commandWithControl(console, kiln::SetPose{{x, y, yaw_deg * M_PI / 180.0}});
+    };
+  });
+  CLI::App* nudge = app.add_subcommand(
+      "nudge", "nudge PLACE DX DY DYAW_DEG: move a configured fire place in map");
+  nudge->add_option("PLACE", request.name, "\"place 1\"")->required();
+  nudge->add_option("BY", request.base, "m, m, degrees")->required();
+  nudge->callback([&request] {
+    request.run = [&request](Console& console) {
+      const auto& [dx, dy, dyaw_deg] = request.base;
+      return kiln::ctl::commandWithControl(
+          console, kiln::NudgePlace{request.name, {dx, dy, dyaw_deg * M_PI / 180.0}});
+    };
+  });
+  CLI::App* go_on = app.add_subcommand("continue-despite",
+                                       "go on although a check of PLACE objects; you have looked");
+  go_on->add_option("PLACE", request.name, "\"place 1\"")->required();
+  go_on->callback([&request] {
+    request.run = [&request](Console& console) {
+      return kiln::ctl::commandWithControl(console, kiln::ContinueDespite{request.name});
     };
   });
 }
@@ -215,6 +252,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   addViews(app, request);
   addMission(app, request);
+  addPlaces(app, request);
   addLeaseAndStop(app, request);
   addHolds(app, request);
   addMacros(app, request);

@@ -38,6 +38,12 @@ FakeRobot::Ack FakeRobot::handle(const std::string& id, const std::string& name,
     say(2, "lease to " + name);
     return done();
   }
+  if (const auto* record = std::get_if<SetRecording>(&body)) {
+    if (recording_ && !record->on) recorded_s_ = toSeconds(now_ - recording_since_);
+    if (record->on && !recording_) recording_since_ = now_;
+    recording_ = record->on;
+    return done();
+  }
   if (holder_ != id) return refused("no_lease", "needs the lease");
   if (std::holds_alternative<ReleaseLease>(body)) {
     holder_.clear();
@@ -56,6 +62,8 @@ FakeRobot::Ack FakeRobot::handleWithLease(const CommandBody& body) {
     return done();
   }
   if (std::holds_alternative<AcknowledgeAlarm>(body)) return done();
+  if (const auto* pose = std::get_if<SetPose>(&body)) return setPose(*pose);
+  if (const auto* by = std::get_if<NudgePlace>(&body)) return nudge(*by);
   if (stopped_) return refused("stopped", "a stop is latched: clear it first");
   if (std::holds_alternative<StartMission>(body)) {
     if (running_) return refused("wrong_state", "the mission runs already");
@@ -80,6 +88,13 @@ FakeRobot::Ack FakeRobot::handleWithLease(const CommandBody& body) {
     return done();
   }
   if (const auto* change = std::get_if<ChangeState>(&body)) return changeState(*change);
+  if (std::holds_alternative<ContinueDespite>(body))
+    return running_ ? done() : refused("not_running", "no mission runs");
+  if (std::holds_alternative<ResetRobot>(body)) {
+    pose_ = {};
+    legs_.push_back({static_cast<int>(legs_.size()), {}});
+    say(3, "reset: carried back to the start");
+  }
   if (std::holds_alternative<CancelMacro>(body)) macro_.clear();
   return done();
 }

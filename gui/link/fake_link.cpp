@@ -34,6 +34,7 @@ void FakeLink::open() {
   publishHealth();
   publishState();
   emit scene(std::make_shared<const Scene>(robot_.scene()));
+  emit mapLayer(std::make_shared<const MapLayer>(makeFakeMap()));
   if (options_.run_by_timer) timer_.start(kTick_ms);
 }
 
@@ -110,13 +111,17 @@ void FakeLink::step(double dt_s) {
   if (tick_ % 4 == 0) publishHealth();
   if (silent_) return;
   if (tick_ % 2 == 0) publishState();
-  if (tick_ % 20 == 0) emit scene(std::make_shared<const Scene>(robot_.scene()));
+  if (tick_ % 20 == 0) {
+    emit scene(std::make_shared<const Scene>(robot_.scene()));
+    emit trajectory(std::make_shared<const Trajectory>(robot_.trajectory()));
+  }
   if (options_.with_sensors) publishSensors();
 }
 
 void FakeLink::publishState() {
   emit status(std::make_shared<const RobotStatus>(robot_.status()));
   emit fsmStatus(std::make_shared<const FsmStatus>(robot_.fsmStatus()));
+  emit localization(std::make_shared<const LocalizationStatus>(robot_.localization()));
   const std::vector<LogLine> lines = robot_.takeLog();
   if (!lines.empty()) emit log(lines);
 }

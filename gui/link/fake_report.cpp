@@ -69,24 +69,17 @@ RobotStatus FakeRobot::status() const {
   s.stamp = now_;
   s.version = "fake";
   s.mode = stopped_ ? Mode::Stopped : mode_;
-  s.word = stopped_                             ? StatusWord::Stopped
-           : mode_ == Mode::Teleop              ? StatusWord::Teleop
-           : paused_                            ? StatusWord::Paused
-           : !running_ && toSeconds(now_) < 1.5 ? StatusWord::NotReady
-           : !running_                          ? StatusWord::Ready
-           : mode_ == Mode::Supervised          ? StatusWord::Supervised
-                                                : StatusWord::Auto;
+  s.word = stopped_                    ? StatusWord::Stopped
+           : mode_ == Mode::Teleop     ? StatusWord::Teleop
+           : paused_                   ? StatusWord::Paused
+           : !running_ && checks_fail_ ? StatusWord::NotReady
+           : !running_                 ? StatusWord::Ready
+           : mode_ == Mode::Supervised ? StatusWord::Supervised
+                                       : StatusWord::Auto;
   if (stopped_) s.reason = stop_source_;
   if (paused_) s.reason = "by operator";
-  if (s.word == StatusWord::NotReady) s.reason = "LiDAR starts";
-  s.checks = {
-      {"Clock offset", true, "3 ms"},
-      {"Arm powered", true, "normal"},
-      {"LiDAR", s.word != StatusWord::NotReady,
-       s.word != StatusWord::NotReady ? "10 Hz" : "no scan yet"},
-      {"Thermal camera", true, "8.8 Hz"},
-      {"Water", tank_[0] + tank_[1] > 1.0, fmt::format("{:.1f} l est.", tank_[0] + tank_[1])},
-      {"Disk", true, "41 GB free"}};
+  if (s.word == StatusWord::NotReady) s.reason = "LiDAR: no scan for 2.1 s";
+  s.checks = checks();
   s.lease.holder_client = holder_;
   s.lease.holder_name = holder_name_;
   s.lease.epoch = holder_.empty() ? 0 : epoch_;
@@ -104,6 +97,14 @@ RobotStatus FakeRobot::status() const {
   s.battery_v = 28.9 - missionElapsedS() / 900.0;
   s.battery_a = 6.5;
   s.water = {duty_, {duty_[0] * 2.1, duty_[1] * 2.0}, tank_, sprayed_l_};
+  s.resets = static_cast<int>(legs_.size()) - 1;
+  const double recorded_s = recording_ ? toSeconds(now_ - recording_since_) : recorded_s_;
+  if (recorded_s > 0.0 || recording_) {
+    s.recording = {recording_, "run-20261122-1705.mcap",
+                   recorded_s, static_cast<std::uint64_t>(recorded_s * 1.3e6),
+                   0,          41e9 - recorded_s * 1.3e6,
+                   ""};
+  }
   s.macro = {macro_,       static_cast<int>(macro_progress_ * 4) + 1, 4, "spray", macro_progress_,
              macro_result_};
   s.speed_scale = speed_scale_;
@@ -121,8 +122,8 @@ Scene FakeRobot::scene() const {
   Scene s;
   s.stamp = now_;
   s.arena = makeFakeArena();
-  s.places = {{"place 1", {12.1, 2.8, 1.0}, M_PI, at_ >= 5},
-              {"place 2", {10.6, -4.6, 1.0}, M_PI / 2, terminal_}};
+  s.places = places();
+  s.place_checks = placeChecks();
   s.planned.stamp = now_;
   s.planned.waypoints_map = {{0, 0, 0}, {2.5, 0, 0}, {7.4, 0, 0}, {8.6, 1.6, 0}, {9.95, 2.8, 0}};
   s.planned.next = at_ == 0 ? 1 : 4;

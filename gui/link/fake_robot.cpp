@@ -99,6 +99,7 @@ void FakeRobot::advanceTo(Stamp now) {
     macro_result_ = "done";
   }
   if (!stopped_) moveBody(dt_s);
+  leaveTrail();
 }
 
 Pose2 FakeRobot::goal() const {

@@ -8,6 +8,7 @@
 
 #include "common/model/command.h"
 #include "common/model/fsm.h"
+#include "common/model/localization.h"
 #include "common/model/scene.h"
 #include "common/model/status.h"
 #include "common/robot_model/robot_geometry.h"
@@ -36,6 +37,8 @@ class FakeRobot {
   [[nodiscard]] FsmStatus fsmStatus() const;
   [[nodiscard]] RobotStatus status() const;
   [[nodiscard]] Scene scene() const;
+  [[nodiscard]] LocalizationStatus localization() const;
+  [[nodiscard]] Trajectory trajectory() const;
   [[nodiscard]] std::vector<MacroInfo> macros() const;
   [[nodiscard]] std::vector<LogLine> takeLog();
   [[nodiscard]] Stamp now() const { return now_; }
@@ -49,6 +52,9 @@ class FakeRobot {
   [[nodiscard]] double missionElapsedS() const;
   [[nodiscard]] const RobotGeometry& geometry() const { return geometry_; }
   [[nodiscard]] Pose2 pose() const { return pose_; }
+  /// Acts out what goes wrong: checks that fail before a start, an uncertain or lost position.
+  void setChecksFail(bool fail) { checks_fail_ = fail; }
+  void setHealth(LocalizationHealth health) { health_ = health; }
   [[nodiscard]] const Vector6d& joints() const { return q_; }
 
  private:
@@ -60,6 +66,12 @@ class FakeRobot {
   void moveBody(double dt_s);
   [[nodiscard]] double inStateS() const { return toSeconds(now_ - entered_) - held_s_; }
   [[nodiscard]] Ack changeState(const ChangeState& change);
+  [[nodiscard]] Ack setPose(const SetPose& pose);
+  [[nodiscard]] Ack nudge(const NudgePlace& nudge);
+  [[nodiscard]] std::vector<Check> checks() const;
+  [[nodiscard]] std::vector<FirePlaceInfo> places() const;
+  [[nodiscard]] std::vector<PlaceCheck> placeChecks() const;
+  void leaveTrail();
   [[nodiscard]] Ack handleWithLease(const CommandBody& body);
   [[nodiscard]] Ack handleSetpoint(const CommandBody& body);
   void say(int level, const std::string& text);
@@ -93,11 +105,20 @@ class FakeRobot {
   std::array<double, 2> tank_{3.8, 3.9};
   double sprayed_l_ = 0.0;
   std::vector<LogLine> log_;
+  bool checks_fail_ = false;
+  LocalizationHealth health_ = LocalizationHealth::Good;
+  std::vector<TrajectoryLeg> legs_{{}};
+  std::array<Pose2, 2> nudges_{};
+  bool recording_ = false;
+  Stamp recording_since_;
+  double recorded_s_ = 0.0;
 };
 
 /// The fire mission's graph as the station draws it.
 [[nodiscard]] FsmInfo makeFakeFireGraph();
 /// Nominal kitchen, for drawing.
 [[nodiscard]] std::vector<SceneBox> makeFakeArena();
+/// Points on its walls, as a map of two parts.
+[[nodiscard]] MapLayer makeFakeMap();
 
 }  // namespace kiln::gui

@@ -10,6 +10,7 @@
 #include "common/model/command.h"
 #include "common/model/fire.h"
 #include "common/model/fsm.h"
+#include "common/model/localization.h"
 #include "common/model/scene.h"
 #include "common/model/sensor.h"
 #include "common/model/status.h"
@@ -47,7 +48,7 @@ struct StopLane {
   std::uint64_t press = 0;  ///< which press of this station the above is about, counted from 1
 };
 
-/// The one seam between the station and a robot: live, fake (and later replay). Lives on the GUI
+/// The one seam between the station and a robot: live, fake or a recording. Lives on the GUI
 /// thread; an implementation keeps its sockets on a thread of its own, and its signals come on the
 /// GUI thread, newest value first (latest wins per topic, so a slow GUI never builds up a queue).
 class Link : public QObject {
@@ -74,6 +75,8 @@ class Link : public QObject {
   virtual void releaseSetpoints() = 0;
   /// STOP (software): own lane, no lease, repeated until latched.
   virtual void stop() = 0;
+  /// True for a recording: nothing can be commanded, whatever it shows.
+  [[nodiscard]] virtual bool readOnly() const { return false; }
 
  signals:
   void health(const kiln::gui::LinkHealth& health);
@@ -87,9 +90,14 @@ class Link : public QObject {
   void heat(std::shared_ptr<const kiln::HeatDetections> detections);
   void image(kiln::RgbImagePtr image);
   void scene(std::shared_ptr<const kiln::Scene> scene);
+  void localization(std::shared_ptr<const kiln::LocalizationStatus> status);
+  void trajectory(std::shared_ptr<const kiln::Trajectory> trajectory);
+  void mapLayer(std::shared_ptr<const kiln::MapLayer> layer);
   void macros(const std::vector<kiln::MacroInfo>& macros);
   void log(const std::vector<kiln::LogLine>& lines);
   void ack(const kiln::CommandAck& ack);
+  /// What follows does not go on from what came before (a jump in a recording): forget histories.
+  void restarted();
 };
 
 }  // namespace kiln::gui

@@ -4,19 +4,15 @@
 #include <algorithm>
 
 #include "common/client/operator_session.h"
-#include "common/core/bounded_queue.h"
-#include "gui/link/inbox.h"
-#include "gui/link/jpeg_decoder.h"
+#include "gui/link/topic_inboxes.h"
 
 namespace kiln::gui {
 
 namespace {
-constexpr std::size_t kLogQueue = 2000;
 constexpr std::size_t kAckQueue = 200;
 constexpr double kLossSmoothing = 0.02;  // about the last 50 status messages
 constexpr double kDelaySmoothing = 0.1;
 constexpr int kAckShown_ms = 500;  // until the robot's status tells of the latch itself
-constexpr int kWarnLevel = 3;
 
 LinkState stateOf(kiln::LinkState state) {
   switch (state) {
@@ -53,23 +49,6 @@ std::optional<AckOutcome> outcomeOf(CommandState state) {
   return std::nullopt;
 }
 
-/// Many short values that must not be lost: handed over in batches, the oldest dropped at the
-/// limit.
-template <class T>
-class Batches {
- public:
-  Batches(QObject& target, std::size_t capacity, std::function<void(const std::vector<T>&)> deliver)
-      : queue_(capacity, DropPolicy::Oldest),
-        bell_(target, [this, deliver](const int&) { deliver(queue_.drain()); }) {}
-  void put(T value) {
-    queue_.push(std::move(value));
-    bell_.put(0);
-  }
-
- private:
-  BoundedQueue<T> queue_;
-  Inbox<int> bell_;
-};
 }  // namespace
 
 struct RobotLink::Impl {
@@ -84,20 +63,10 @@ struct RobotLink::Impl {
   Inbox<LinkReport> health;
   Inbox<StopReport> stop;
   Inbox<HelloReply> hello;
-  Inbox<std::pair<std::shared_ptr<const RobotStatus>, Arrival>> status;
-  Inbox<std::shared_ptr<const FsmInfo>> fsm_info;
-  Inbox<std::shared_ptr<const FsmStatus>> fsm_status;
-  Inbox<std::shared_ptr<const Scene>> scene;
-  Inbox<std::vector<MacroInfo>> macros;
-  Inbox<PointCloudPtr> cloud;
-  Inbox<ThermalImagePtr> thermal;
-  Inbox<std::shared_ptr<const HeatDetections>> heat;
-  Inbox<RgbImagePtr> head_image, operator_image;
-  Batches<LogLine> log;
   Batches<CommandAck> acks;
   double down_s = -1.0, loss = 0.0;
   bool reachable = false;
-  std::unique_ptr<JpegDecoder> decoder;
+  TopicInboxes topics;
   std::unique_ptr<OperatorSession> session;  // last: its threads call all of the above
 };
 
@@ -106,38 +75,17 @@ RobotLink::Impl::Impl(RobotLink& owner)
       health(owner, [this](const LinkReport& r) { deliverHealth(r); }),
       stop(owner, [this](const StopReport& r) { deliverStop(r); }),
       hello(owner, [this](const HelloReply& r) { emit link.hello(r); }),
-      status(owner,
-             [this](const auto& value) {
-               noteArrival(value.second);
-               emit link.status(value.first);
-             }),
-      fsm_info(owner, [this](const auto& value) { emit link.fsmInfo(value); }),
-      fsm_status(owner, [this](const auto& value) { emit link.fsmStatus(value); }),
-      scene(owner, [this](const auto& value) { emit link.scene(value); }),
-      macros(owner, [this](const auto& value) { emit link.macros(value); }),
-      cloud(owner, [this](const auto& value) { emit link.cloud(value); }),
-      thermal(owner, [this](const auto& value) { emit link.thermal(value); }),
-      heat(owner, [this](const auto& value) { emit link.heat(value); }),
-      head_image(owner, [this](const auto& value) { emit link.image(value); }),
-      operator_image(owner, [this](const auto& value) { emit link.image(value); }),
-      log(owner, kLogQueue, [this](const std::vector<LogLine>& lines) { emit link.log(lines); }),
-      acks(owner, kAckQueue, [this](const std::vector<CommandAck>& batch) {
-        for (CommandAck ack : batch) {
-          ack.client_id = session ? session->clientId() : std::string{};
-          emit link.ack(ack);
-        }
-      }) {
-  decoder = std::make_unique<JpegDecoder>(
-      [this](RgbImagePtr image) {
-        (image->frame == "rgb" ? head_image : operator_image).put(std::move(image));
-      },
-      [this](const std::string& text) {
-        log.put(LogLine{Stamp{}, kWarnLevel, "station", text});
-      });
-}
+      acks(owner, kAckQueue,
+           [this](const std::vector<CommandAck>& batch) {
+             for (CommandAck ack : batch) {
+               ack.client_id = session ? session->clientId() : std::string{};
+               emit link.ack(ack);
+             }
+           }),
+      topics(owner, [this](const Arrival& arrival) { noteArrival(arrival); }) {}
 
 OperatorSession::Callbacks RobotLink::Impl::callbacks() {
-  OperatorSession::Callbacks c;
+  OperatorSession::Callbacks c = topics.callbacks();
   c.on_link = [this](const LinkReport& r) { health.put(r); };
   c.on_hello = [this](const HelloReply& r) { hello.put(r); };
   c.on_stop = [this](const StopReport& r) { stop.put(r); };
@@ -145,31 +93,6 @@ OperatorSession::Callbacks RobotLink::Impl::callbacks() {
     const auto outcome = outcomeOf(u.state);
     if (!outcome) return;
     acks.put(CommandAck{{}, u.nonce, u.command, *outcome, u.code, u.reason, u.lease_holder});
-  };
-  c.on_status = [this](const RobotStatus& v, const Arrival& a) {
-    status.put({std::make_shared<const RobotStatus>(v), a});
-  };
-  c.on_fsm_info = [this](const FsmInfo& v, const Arrival&) {
-    fsm_info.put(std::make_shared<const FsmInfo>(v));
-  };
-  c.on_fsm_status = [this](const FsmStatus& v, const Arrival&) {
-    fsm_status.put(std::make_shared<const FsmStatus>(v));
-  };
-  c.on_scene = [this](const Scene& v, const Arrival&) {
-    scene.put(std::make_shared<const Scene>(v));
-  };
-  c.on_macros = [this](const std::vector<MacroInfo>& v, const Arrival&) { macros.put(v); };
-  c.on_log = [this](const LogBatch& v, const Arrival&) {
-    for (const LogLine& line : v.lines) log.put(line);
-  };
-  c.on_cloud = [this](PointCloudPtr v, const Arrival&) { cloud.put(std::move(v)); };
-  c.on_thermal = [this](ThermalImagePtr v, const Arrival&) { thermal.put(std::move(v)); };
-  c.on_heat = [this](const HeatDetections& v, const Arrival&) {
-    heat.put(std::make_shared<const HeatDetections>(v));
-  };
-  c.on_jpeg = [this](JpegImagePtr v, const Arrival&) { decoder->put(std::move(v)); };
-  c.on_bad_message = [this](const Error& e) {
-    log.put(LogLine{Stamp{}, kWarnLevel, "station", e.message});
   };
   return c;
 }

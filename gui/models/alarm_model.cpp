@@ -6,6 +6,10 @@ namespace kiln::gui {
 
 AlarmModel::AlarmModel(Link& link, CommandTracker& commands, QObject* parent)
     : Model(link, AgeLimits{}, parent), commands_(commands) {
+  connect(&link, &Link::restarted, this, [this] {
+    entries_.clear();
+    touch();
+  });
   connect(&link, &Link::status, this, [this](const std::shared_ptr<const RobotStatus>& status) {
     for (Entry& entry : entries_) {
       const bool told = std::any_of(status->alarms.begin(), status->alarms.end(),

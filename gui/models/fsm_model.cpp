@@ -19,6 +19,11 @@ FsmModel::FsmModel(Link& link, QObject* parent) : Model(link, AgeLimits{}, paren
     touch();
     emit missionChanged();
   });
+  connect(&link, &Link::restarted, this, [this] {
+    visits_.clear();
+    recount();
+    touch();
+  });
   connect(&link, &Link::fsmStatus, this,
           [this](std::shared_ptr<const FsmStatus> status) { onStatus(std::move(status)); });
 }

@@ -23,6 +23,8 @@ class LeaseModel : public Model {
   [[nodiscard]] QString askedBy() const;
   /// Why the last request was refused; empty when it was not.
   [[nodiscard]] QString refusal() const;
+  /// False in a recording: there is nobody to ask.
+  [[nodiscard]] bool possible() const { return !link().readOnly(); }
   void request(bool take_over = false);
   void release();
 

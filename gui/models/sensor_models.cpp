@@ -37,6 +37,10 @@ CameraModel::CameraModel(Link& link, std::string frame, QObject* parent)
 }
 
 SceneModel::SceneModel(Link& link, QObject* parent) : Model(link, kSlowAge, parent) {
+  connect(&link, &Link::restarted, this, [this] {
+    driven_.clear();
+    touch();
+  });
   connect(&link, &Link::scene, this, [this](std::shared_ptr<const Scene> scene) {
     scene_ = std::move(scene);
     arrived(scene_->stamp);

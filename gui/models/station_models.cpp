@@ -16,6 +16,8 @@ StationModels::StationModels(Link& link_in, QObject* parent)
       camera(link, "operator_camera"),
       head_camera(link, "rgb"),
       scene(link),
+      localization(link),
+      map(link),
       macros(link),
       alarms(link, commands),
       log(link),
@@ -43,6 +45,7 @@ bool StationModels::mayCommand(QString* why) const {
     if (why) *why = text;
     return false;
   };
+  if (link.readOnly()) return refuse(tr("a recording cannot be commanded"));
   if (status.word() == StatusWord::NoLink) return refuse(tr("no link to the robot"));
   if (stop.latched()) return refuse(tr("stopped: clear the stop first"));
   if (lease.holder() == LeaseHolder::Other)
@@ -65,8 +68,9 @@ void StationModels::flush() {
         static_cast<Model*>(&link_state), static_cast<Model*>(&stop), static_cast<Model*>(&lease),
         static_cast<Model*>(&fsm), static_cast<Model*>(&cloud), static_cast<Model*>(&thermal),
         static_cast<Model*>(&camera), static_cast<Model*>(&head_camera),
-        static_cast<Model*>(&scene), static_cast<Model*>(&macros), static_cast<Model*>(&alarms),
-        static_cast<Model*>(&log), static_cast<Model*>(&trends)}) {
+        static_cast<Model*>(&scene), static_cast<Model*>(&localization), static_cast<Model*>(&map),
+        static_cast<Model*>(&macros), static_cast<Model*>(&alarms), static_cast<Model*>(&log),
+        static_cast<Model*>(&trends)}) {
     model->flush();
   }
 }

@@ -6,6 +6,7 @@
 #include "gui/models/command_tracker.h"
 #include "gui/models/fsm_model.h"
 #include "gui/models/lease_model.h"
+#include "gui/models/localization_model.h"
 #include "gui/models/sensor_models.h"
 #include "gui/models/status_models.h"
 #include "gui/models/stop_model.h"
@@ -35,6 +36,8 @@ class StationModels : public QObject {
   CameraModel camera;       ///< the operator's, rear top
   CameraModel head_camera;  ///< at the end-effector
   SceneModel scene;
+  LocalizationModel localization;
+  MapModel map;
   MacroModel macros;
   AlarmModel alarms;
   LogModel log;
@@ -44,7 +47,7 @@ class StationModels : public QObject {
   /// Robot time now; the newest status' time while the offset is unknown.
   [[nodiscard]] Stamp robotNow() const;
   /// True if jogging, macros, pump and forced jumps would be accepted as far as the station can
-  /// know: fresh status, lease, no stop. Else `why` (if given) gets one sentence.
+  /// know: fresh status, lease, no stop, no recording. Else `why` (if given) gets one sentence.
   [[nodiscard]] bool mayCommand(QString* why = nullptr) const;
   /// Same, and in Teleop: for hold-to-run controls.
   [[nodiscard]] bool mayJog(QString* why = nullptr) const;

@@ -42,6 +42,10 @@ MacroModel::MacroModel(Link& link, QObject* parent) : Model(link, kSlowAge, pare
 }
 
 LogModel::LogModel(Link& link, QObject* parent) : Model(link, kSlowAge, parent) {
+  connect(&link, &Link::restarted, this, [this] {
+    lines_.clear();
+    touch();
+  });
   connect(&link, &Link::log, this, [this](const std::vector<LogLine>& lines) {
     for (const LogLine& line : lines) add(line);
   });

@@ -5,6 +5,10 @@
 namespace kiln::gui {
 
 TrendModel::TrendModel(Link& link, QObject* parent) : Model(link, AgeLimits{}, parent) {
+  connect(&link, &Link::restarted, this, [this] {
+    for (Series* series : {&rtt_, &peak_, &force_}) series->clear();
+    touch();
+  });
   connect(&link, &Link::health, this, [this](const LinkHealth& health) {
     const auto now = this->link().robotNow();
     if (!now) return;

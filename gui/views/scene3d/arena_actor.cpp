@@ -21,7 +21,7 @@ class ArenaActor final : public SceneActor {
   ~ArenaActor() override { clear(); }
 
   void update(const SceneSnapshot& snapshot, const SceneColors& colors) override {
-    const LayerState& layer = snapshot.layer(SceneLayer::Map);
+    const LayerState& layer = snapshot.layer(SceneLayer::Walls);
     if (revision_ == layer.revision && dark_ == colors.dark) return;
     revision_ = layer.revision;
     dark_ = colors.dark;

@@ -2,12 +2,8 @@
 #include <optional>
 
 #include <vtkActor.h>
-#include <vtkCellArray.h>
 #include <vtkFloatArray.h>
-#include <vtkIdTypeArray.h>
 #include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
@@ -76,26 +72,8 @@ class CloudActor final : public SceneActor {
     }
     xyz->SetNumberOfTuples(n);
     rgb->SetNumberOfTuples(n);
-    setMesh(*points_, pointMesh(xyz, rgb, n));
+    setMesh(*points_, pointMesh(xyz, rgb));
     if (n > 0) setMesh(*outline_, boxEdges(bounds.min(), bounds.max()));
-  }
-
-  static vtkSmartPointer<vtkPolyData> pointMesh(vtkFloatArray* xyz, vtkUnsignedCharArray* rgb,
-                                                vtkIdType n) {
-    vtkNew<vtkPoints> points;
-    points->SetData(xyz);
-    vtkNew<vtkIdTypeArray> offsets, ids;
-    offsets->SetNumberOfValues(n + 1);
-    ids->SetNumberOfValues(n);
-    for (vtkIdType i = 0; i < n; ++i) ids->SetValue(i, i);
-    for (vtkIdType i = 0; i <= n; ++i) offsets->SetValue(i, i);
-    vtkNew<vtkCellArray> cells;
-    cells->SetData(offsets, ids);
-    auto mesh = vtkSmartPointer<vtkPolyData>::New();
-    mesh->SetPoints(points);
-    mesh->SetVerts(cells);
-    mesh->GetPointData()->SetScalars(rgb);
-    return mesh;
   }
 
   std::size_t budget_;

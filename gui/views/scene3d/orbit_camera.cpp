@@ -62,6 +62,25 @@ Eigen::Vector3d OrbitCamera::up() const {
 
 double OrbitCamera::halfHeight() const { return distance_ * std::tan(0.5 * kFieldOfView); }
 
+std::optional<Eigen::Vector2d> OrbitCamera::groundPoint(const Eigen::Vector2d& pixel, int width_px,
+                                                        int height_px) const {
+  constexpr double kReach_m = 200.0, kLeastSlope = 1e-3;
+  if (width_px <= 0 || height_px <= 0) return std::nullopt;
+  const Eigen::Vector3d view = (target_ - position()).normalized();
+  const Eigen::Vector3d right = view.cross(up()).normalized();
+  const Eigen::Vector3d screen_up = right.cross(view);
+  const double half = parallel() ? halfHeight() : std::tan(0.5 * kFieldOfView);
+  const double scale = 2.0 * half / height_px;
+  const Eigen::Vector3d aside = scale * (pixel.x() - 0.5 * width_px) * right -
+                                scale * (pixel.y() - 0.5 * height_px) * screen_up;
+  const Eigen::Vector3d from = parallel() ? Eigen::Vector3d(position() + aside) : position();
+  const Eigen::Vector3d ray = parallel() ? view : Eigen::Vector3d(view + aside);
+  if (ray.z() > -kLeastSlope) return std::nullopt;
+  const Eigen::Vector3d p = from - from.z() / ray.z() * ray;
+  if ((p - from).norm() > kReach_m) return std::nullopt;
+  return Eigen::Vector2d(p.x(), p.y());
+}
+
 std::optional<Eigen::Vector2d> OrbitCamera::project(const Eigen::Vector3d& p_map, int width_px,
                                                     int height_px) const {
   const Eigen::Vector3d view = (target_ - position()).normalized();

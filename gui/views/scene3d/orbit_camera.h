@@ -38,6 +38,10 @@ class OrbitCamera {
   /// Pixel of a point, origin top left. nullopt behind the camera.
   [[nodiscard]] std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& p_map, int width_px,
                                                        int height_px) const;
+  /// Where the ray through a pixel meets the kitchen floor (z = 0 of map); nullopt if it does not,
+  /// or only beyond 200 m.
+  [[nodiscard]] std::optional<Eigen::Vector2d> groundPoint(const Eigen::Vector2d& pixel,
+                                                           int width_px, int height_px) const;
 
  private:
   static constexpr double kFieldOfView = 0.6;

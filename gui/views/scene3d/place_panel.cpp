@@ -88,7 +88,7 @@ ActButton* PlacePanel::step(const QString& text, const QString& tip, double dx, 
   auto* button = new ActButton(ui_, text);
   button->setFixedHeight(kStepHeight_px);
   button->setToolTip(tip);
-  connect(button, &QAbstractButton::clicked, this, [=] { nudge_.add(dx, dy, dyaw); });
+  connect(button, &QAbstractButton::clicked, this, [=, this] { nudge_.add(dx, dy, dyaw); });
   return button;
 }
 

@@ -62,7 +62,7 @@ class RobotActor final : public SceneActor {
   void update(const SceneSnapshot& snapshot, const SceneColors& colors) override {
     const LayerState& layer = snapshot.layer(SceneLayer::Robot);
     const bool shown = layer.visible && snapshot.robot_known;
-    const Eigen::Isometry3d X_map_base = toIsometry(snapshot.X_map_base);
+    const Eigen::Isometry3d X_map_base = snapshot.robotPose();
     const auto poses = shape_.poses(snapshot.q, snapshot.steer);
     for (std::size_t i = 0; i < actors_.size(); ++i) {
       actors_[i]->SetVisibility(shown);

@@ -25,6 +25,7 @@ class SceneActor {
                                                          const RobotShape& shape);
 /// @param budget  points drawn at most; denser clouds are thinned evenly.
 [[nodiscard]] std::unique_ptr<SceneActor> makeCloudActor(vtkRenderer& renderer, std::size_t budget);
+[[nodiscard]] std::unique_ptr<SceneActor> makeMapActor(vtkRenderer& renderer);
 [[nodiscard]] std::unique_ptr<SceneActor> makeArenaActor(vtkRenderer& renderer);
 [[nodiscard]] std::unique_ptr<SceneActor> makePlannedPathActor(vtkRenderer& renderer);
 [[nodiscard]] std::unique_ptr<SceneActor> makeDrivenPathActor(vtkRenderer& renderer);

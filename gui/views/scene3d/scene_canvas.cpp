@@ -48,6 +48,20 @@ void SceneCanvas::setCameraMode(OrbitCamera::Mode mode) {
   emit cameraModeChanged();
 }
 
+void SceneCanvas::setIntent(const SceneIntent& intent) {
+  intent_ = intent;
+  update();
+}
+
+void SceneCanvas::setPointing(bool pointing) {
+  pointing_ = pointing;
+  setCursor(pointing ? Qt::CrossCursor : Qt::ArrowCursor);
+}
+
+std::optional<Eigen::Vector2d> SceneCanvas::groundAt(const QPoint& pixel) const {
+  return camera_.groundPoint({pixel.x() + 0.5, pixel.y() + 0.5}, width(), height());
+}
+
 void SceneCanvas::want() {
   wanted_ = true;
   if (under_way_ || pace_.isActive()) return;
@@ -88,6 +102,7 @@ void SceneCanvas::paintEvent(QPaintEvent*) {
   } else {
     painter.drawImage(rect(), frame_.image);
   }
+  paintSceneOverlay(painter, snapshot_, intent_, render_ ? frame_.camera : camera_, colors, size());
   painter.setFont(ui_.theme.font(TextRole::Body));
   paintSceneLabels(painter, snapshot_, render_ ? frame_.camera : camera_, colors, size());
   emit drawn();
@@ -95,9 +110,17 @@ void SceneCanvas::paintEvent(QPaintEvent*) {
 
 void SceneCanvas::resizeEvent(QResizeEvent*) { want(); }
 
-void SceneCanvas::mousePressEvent(QMouseEvent* event) { last_mouse_ = event->pos(); }
+void SceneCanvas::mousePressEvent(QMouseEvent* event) {
+  last_mouse_ = event->pos();
+  if (!pointing_ || event->button() != Qt::LeftButton) return;
+  if (const auto p = groundAt(event->pos())) emit groundPressed(p->x(), p->y());
+}
 
 void SceneCanvas::mouseMoveEvent(QMouseEvent* event) {
+  if (pointing_ && (event->buttons() & Qt::LeftButton)) {
+    if (const auto p = groundAt(event->pos())) emit groundDragged(p->x(), p->y());
+    return;
+  }
   const QPoint d = event->pos() - last_mouse_;
   last_mouse_ = event->pos();
   if (event->buttons() & Qt::LeftButton)
@@ -109,6 +132,7 @@ void SceneCanvas::mouseMoveEvent(QMouseEvent* event) {
 }
 
 void SceneCanvas::mouseDoubleClickEvent(QMouseEvent*) {
+  if (pointing_) return;
   setCameraMode(OrbitCamera::Mode::Follow);
   camera_.reset(robot());
 }

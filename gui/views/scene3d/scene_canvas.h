@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "gui/views/scene3d/render_thread.h"
+#include "gui/views/scene3d/scene_overlay.h"
 #include "gui/widgets/theme.h"
 
 namespace kiln::gui {
@@ -26,12 +27,18 @@ class SceneCanvas : public QWidget {
               QWidget* parent = nullptr);
   void show(const SceneSnapshot& snapshot);
   void setCameraMode(OrbitCamera::Mode mode);
+  /// What the operator is about to do; drawn as ghosts.
+  void setIntent(const SceneIntent& intent);
+  /// While on, a press with the left button points at the ground instead of turning the camera.
+  void setPointing(bool pointing);
   [[nodiscard]] const OrbitCamera& camera() const { return camera_; }
   [[nodiscard]] bool usesOpenGl() const { return render_ != nullptr; }
   [[nodiscard]] double lastRenderMs() const { return frame_.render_ms; }
   [[nodiscard]] QSize minimumSizeHint() const override { return {240, 160}; }
 
  signals:
+  void groundPressed(double x_m, double y_m);  ///< in map; only while pointing
+  void groundDragged(double x_m, double y_m);
   void cameraModeChanged();
   void drawn();  ///< a new picture is on the screen
 
@@ -48,6 +55,7 @@ class SceneCanvas : public QWidget {
   void want();
   void drawNow();
   void accept(const SceneFrame& frame);
+  [[nodiscard]] std::optional<Eigen::Vector2d> groundAt(const QPoint& pixel) const;
   [[nodiscard]] Eigen::Vector3d robot() const;
 
   Ui ui_;
@@ -55,6 +63,8 @@ class SceneCanvas : public QWidget {
   Config config_;
   std::unique_ptr<RenderThread> render_;  // null: top view
   SceneSnapshot snapshot_;
+  SceneIntent intent_;
+  bool pointing_ = false;
   OrbitCamera camera_;
   SceneFrame frame_;
   QTimer pace_;

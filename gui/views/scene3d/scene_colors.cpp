@@ -20,6 +20,10 @@ SceneColors darkSolids() {
   c.joint = rgbFromHex(0x7f9db4);
   c.wheel = rgbFromHex(0x3a3e42);
   c.head = rgbFromHex(0x8d959b);
+  c.map_points = rgbFromHex(0x8d8f86);
+  c.map_points_idle = rgbFromHex(0x55585a);
+  c.suspected = rgbFromHex(0xe0525c);
+  c.sensed = rgbFromHex(0xf0f3f5);
   c.planned = rgbFromHex(0x5fa8c8);
   c.waypoint = rgbFromHex(0x8cc4dc);
   c.driven = {rgbFromHex(0xe4e8ea), rgbFromHex(0xb9a6d8), rgbFromHex(0x9ec7a0),
@@ -44,6 +48,10 @@ SceneColors lightSolids() {
   c.joint = rgbFromHex(0x4f7896);
   c.wheel = rgbFromHex(0x3f4549);
   c.head = rgbFromHex(0x7d868c);
+  c.map_points = rgbFromHex(0x85867c);
+  c.map_points_idle = rgbFromHex(0xbfc2c0);
+  c.suspected = rgbFromHex(0xc0202c);
+  c.sensed = rgbFromHex(0x1c2124);
   c.planned = rgbFromHex(0x1f6f95);
   c.waypoint = rgbFromHex(0x1f6f95);
   c.driven = {rgbFromHex(0x30363b), rgbFromHex(0x6b4fa0), rgbFromHex(0x2f7a3a),
@@ -63,6 +71,7 @@ SceneColors SceneColors::of(const Theme& theme) {
   const Palette& p = theme.colors();
   c.ground = rgb(p.scene_ground);
   c.grid = rgb(p.scene_line);
+  c.intent = rgb(p.manual);
   c.caution = rgb(p.caution);
   c.text = rgb(p.text);
   c.text_dim = rgb(p.dim);

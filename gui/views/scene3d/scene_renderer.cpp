@@ -51,6 +51,7 @@ SceneRenderer::SceneRenderer(Config config, const RobotShape& shape)
   impl_->window->AddRenderer(impl_->renderer);
   vtkRenderer& renderer = *impl_->renderer;
   impl_->actors.push_back(makeGridActor(renderer));
+  impl_->actors.push_back(makeMapActor(renderer));
   impl_->actors.push_back(makeArenaActor(renderer));
   impl_->actors.push_back(makeRobotActor(renderer, shape));
   impl_->actors.push_back(makeCloudActor(renderer, config.point_budget));

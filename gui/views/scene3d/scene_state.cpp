@@ -29,7 +29,9 @@ const char* toString(SceneLayer layer) {
     case SceneLayer::Lidar:
       return "LiDAR";
     case SceneLayer::Map:
-      return "Map";
+      return "Map points";
+    case SceneLayer::Walls:
+      return "Nominal walls";
     case SceneLayer::Planned:
       return "Planned path";
     case SceneLayer::Driven:
@@ -52,7 +54,7 @@ void SceneState::setStatus(const RobotStatus& status) {
   snapshot_.X_map_base = status.X_map_base;
   snapshot_.q = status.arm.q;
   snapshot_.steer = status.wheel_steer_rad;
-  poses_.push_back({status.stamp, status.X_map_base, status.arm.q});
+  poses_.push_back({status.stamp, snapshot_.robotPose(), status.arm.q});
   while (poses_.size() > config_.pose_history) poses_.pop_front();
   touch(SceneLayer::Robot);
   extendTrail(status);
@@ -95,7 +97,7 @@ void SceneState::setCloud(PointCloudPtr cloud) {
   if (cloud->frame == frames::kBase || cloud->frame == frames::kLidar) {
     // Without a robot pose the scan is still worth seeing, round the origin (sensor files have no
     // robot).
-    if (at) X_map_cloud = toIsometry(at->X_map_base);
+    if (at) X_map_cloud = at->X_map_base;
     if (cloud->frame == frames::kLidar) {
       const Vector6d q = at ? at->q : RobotGeometry::radians(geometry_.q_drive_deg);
       X_map_cloud = X_map_cloud * geometry_.X_base_flange(q) * geometry_.X_flange_lidar.pose();
@@ -113,15 +115,63 @@ void SceneState::setCloud(PointCloudPtr cloud) {
 void SceneState::setScene(const Scene& scene) {
   if (!sameBoxes(snapshot_.arena, scene.arena)) {
     snapshot_.arena = scene.arena;
-    touch(SceneLayer::Map);
+    touch(SceneLayer::Walls);
   }
   snapshot_.planned = scene.planned;
   snapshot_.places = scene.places;
+  snapshot_.place_checks = scene.place_checks;
   snapshot_.fires = scene.fires;
   snapshot_.jet = scene.jet;
   for (const SceneLayer l :
        {SceneLayer::Planned, SceneLayer::Places, SceneLayer::Fire, SceneLayer::Jet})
     touch(l);
+}
+
+void SceneState::setLocalization(const LocalizationStatus& status) {
+  if (!isFinite(status.X_map_base)) return;
+  snapshot_.X_ground_base =
+      toIsometry(projectToGround(status.X_map_base)).inverse() * status.X_map_base;
+  snapshot_.health = status.health;
+  snapshot_.covariance_xy = status.covariance.topLeftCorner<2, 2>();
+  if (submap_name_ != status.submap) {
+    submap_name_ = status.submap;
+    refreshSubmap();
+  }
+  touch(SceneLayer::Robot);
+}
+
+void SceneState::setMap(std::shared_ptr<const MapLayer> map) {
+  if (map == snapshot_.map) return;
+  snapshot_.map = std::move(map);
+  refreshSubmap();
+}
+
+void SceneState::refreshSubmap() {
+  snapshot_.submap = -1;
+  if (snapshot_.map) {
+    const auto& names = snapshot_.map->submaps;
+    const auto found = std::find(names.begin(), names.end(), submap_name_);
+    if (found != names.end()) snapshot_.submap = static_cast<int>(found - names.begin());
+  }
+  touch(SceneLayer::Map);
+}
+
+void SceneState::setTrajectory(const Trajectory& trajectory) {
+  if (trajectory.legs.empty()) return;
+  snapshot_.driven.clear();
+  for (const TrajectoryLeg& leg : trajectory.legs) {
+    auto& line = snapshot_.driven.emplace_back();
+    for (const Pose2& X : leg.X_map_base) line.emplace_back(X.x_m, X.y_m);
+  }
+  resets_ = trajectory.legs.back().resets;
+  trimTrail();
+  touch(SceneLayer::Driven);
+}
+
+void SceneState::restart() {
+  snapshot_.driven.clear();
+  poses_.clear();
+  touch(SceneLayer::Driven);
 }
 
 void SceneState::setAge(SceneLayer l, double age_s) {

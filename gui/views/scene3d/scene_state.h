@@ -5,14 +5,16 @@
 #include <string>
 #include <vector>
 
+#include "common/model/localization.h"
 #include "common/model/scene.h"
 #include "common/model/status.h"
 #include "common/robot_model/robot_geometry.h"
 
 namespace kiln::gui {
 
-enum class SceneLayer { Robot, Lidar, Map, Planned, Driven, Places, Fire, Jet };
-inline constexpr std::size_t kSceneLayers = 8;
+/// Walls: the nominal building. Map: points of the surfel map that the robot localises on.
+enum class SceneLayer { Robot, Lidar, Map, Walls, Planned, Driven, Places, Fire, Jet };
+inline constexpr std::size_t kSceneLayers = 9;
 [[nodiscard]] const char* toString(SceneLayer layer);  ///< what the operator reads
 
 /// Missing: never came. Aging and Stale: too old by the limits of console.md section 4.4.
@@ -29,17 +31,27 @@ struct LayerState {
 struct SceneSnapshot {
   bool robot_known = false;
   Pose2 X_map_base;
+  /// From base on the ground plane to base as it stands: height, roll and pitch on a slope.
+  Eigen::Isometry3d X_ground_base = Eigen::Isometry3d::Identity();
   Vector6d q = Vector6d::Zero();
   std::array<double, 4> steer{};
+  std::shared_ptr<const MapLayer> map;
+  int submap = -1;  ///< index of the part in use; < 0: unknown, all alike
+  LocalizationHealth health = LocalizationHealth::Good;
+  Eigen::Matrix2d covariance_xy = Eigen::Matrix2d::Zero();  ///< of X_map_base, m^2
   PointCloudPtr cloud;
   Eigen::Isometry3d X_map_cloud = Eigen::Isometry3d::Identity();
   std::vector<SceneBox> arena;
   PathInfo planned;
   std::vector<std::vector<Eigen::Vector2d>> driven;  ///< one line for each life between resets
   std::vector<FirePlaceInfo> places;
+  std::vector<PlaceCheck> place_checks;
   std::vector<FireEstimate> fires;
   JetPreview jet;
   std::array<LayerState, kSceneLayers> layers{};
+  [[nodiscard]] Eigen::Isometry3d robotPose() const {
+    return toIsometry(X_map_base) * X_ground_base;
+  }
   [[nodiscard]] const LayerState& layer(SceneLayer l) const {
     return layers[static_cast<std::size_t>(l)];
   }
@@ -64,6 +76,12 @@ class SceneState {
   /// understood; another frame is refused with a sentence in cloudRefusal().
   void setCloud(PointCloudPtr cloud);
   void setScene(const Scene& scene);
+  void setLocalization(const LocalizationStatus& status);
+  void setMap(std::shared_ptr<const MapLayer> map);
+  /// What the robot remembers of its way replaces what this station has seen of it.
+  void setTrajectory(const Trajectory& trajectory);
+  /// Forgets the way and the poses: what follows is of another time.
+  void restart();
   /// @param age_s  since the data arrived; < 0: never.
   void setAge(SceneLayer layer, double age_s);
   void setVisible(SceneLayer layer, bool visible);
@@ -74,9 +92,10 @@ class SceneState {
  private:
   struct PoseAt {
     Stamp stamp;
-    Pose2 X_map_base;
+    Eigen::Isometry3d X_map_base = Eigen::Isometry3d::Identity();
     Vector6d q = Vector6d::Zero();
   };
+  void refreshSubmap();
   LayerState& layer(SceneLayer l) { return snapshot_.layers[static_cast<std::size_t>(l)]; }
   void touch(SceneLayer l);
   void extendTrail(const RobotStatus& status);
@@ -88,6 +107,7 @@ class SceneState {
   SceneSnapshot snapshot_;
   std::deque<PoseAt> poses_;
   std::string cloud_refusal_;
+  std::string submap_name_;
   int resets_ = 0;
 };
 

@@ -1,10 +1,15 @@
 #include "gui/views/scene3d/scene_tile.h"
 
 #include <QButtonGroup>
+#include <QEvent>
 #include <QHBoxLayout>
 #include <QToolButton>
+#include <algorithm>
 
 #include "gui/views/scene3d/layer_panel.h"
+#include "gui/views/scene3d/localization_chip.h"
+#include "gui/views/scene3d/place_panel.h"
+#include "gui/views/scene3d/pose_panel.h"
 
 namespace kiln::gui {
 namespace {
@@ -25,8 +30,14 @@ SceneTile::SceneTile(const Ui& ui, StationModels& models, RobotGeometry geometry
       state_({}, std::move(geometry)),
       canvas_(new SceneCanvas(ui, RobotShape(state_.geometry()), {}, open_gl)),
       layers_(new LayerPanel(ui, canvas_)),
-      camera_buttons_(new QButtonGroup(this)) {
+      camera_buttons_(new QButtonGroup(this)),
+      placer_(models),
+      nudge_(models),
+      chip_(new LocalizationChip(ui, models.localization, canvas_)),
+      pose_panel_(new PosePanel(ui, placer_, canvas_)),
+      place_panel_(new PlacePanel(ui, models, nudge_, canvas_)) {
   setContent(canvas_, true);
+  canvas_->installEventFilter(this);
   layers_->move(kPanelOffset_px, kPanelOffset_px);
   addHeaderWidget(makeCameraButtons());
   connect(layers_, &LayerPanel::toggled, this, [this](SceneLayer layer, bool visible) {
@@ -43,14 +54,87 @@ SceneTile::SceneTile(const Ui& ui, StationModels& models, RobotGeometry geometry
     if (models_.scene.scene()) state_.setScene(*models_.scene.scene());
     refresh();
   });
+  connect(&models_.localization, &Model::changed, this, [this] {
+    if (models_.localization.status()) state_.setLocalization(*models_.localization.status());
+    chip_->refresh();
+    refresh();
+  });
+  connect(&models_.map, &Model::changed, this, &SceneTile::takeMap);
+  connect(&models_.link, &Link::restarted, this, [this] { state_.restart(); });
+  connect(canvas_, &SceneCanvas::groundPressed, &placer_, &PosePlacer::press);
+  connect(canvas_, &SceneCanvas::groundDragged, &placer_, &PosePlacer::drag);
+  connect(&placer_, &PosePlacer::changed, this, &SceneTile::watchPlacing);
+  connect(&nudge_, &PlaceNudge::changed, this, &SceneTile::takeIntent);
+  connect(chip_, &LocalizationChip::resized, this, &SceneTile::arrange);
+  connect(place_panel_, &PlacePanel::resized, this, &SceneTile::arrange);
   connect(&models_, &StationModels::aged, this, [this] {
     takeAges();
+    chip_->refresh();
+    refreshPoseButton();
     refresh();
   });
   refresh();
 }
 
 void SceneTile::toggleLayerPanel() { layers_->setVisible(!layers_->isVisible()); }
+
+void SceneTile::takeMap() {
+  state_.setMap(models_.map.layer());
+  if (models_.map.trajectory()) state_.setTrajectory(*models_.map.trajectory());
+  refresh();
+}
+
+void SceneTile::takeIntent() {
+  SceneIntent intent;
+  using Phase = PosePlacer::Phase;
+  if (placer_.phase() == Phase::Placed || placer_.phase() == Phase::Sent)
+    intent.robot = placer_.pose();
+  if (nudge_.hasWish() && place_panel_->isVisible()) {
+    intent.place = nudge_.selected().toStdString();
+    intent.nudge = nudge_.wish();
+  }
+  canvas_->setIntent(intent);
+}
+
+void SceneTile::watchPlacing() {
+  const bool now = placer_.active();
+  if (now && !placing_) {
+    before_placing_ = canvas_->camera().mode();
+    canvas_->setCameraMode(OrbitCamera::Mode::Top);
+  } else if (!now && placing_) {
+    canvas_->setCameraMode(before_placing_);
+  }
+  placing_ = now;
+  canvas_->setPointing(now);
+  refreshPoseButton();
+  takeIntent();
+  arrange();
+}
+
+void SceneTile::refreshPoseButton() {
+  QString why;
+  const bool may = placing_ || placer_.mayStart(&why);
+  pose_button_->setEnabled(may);
+  pose_button_->setChecked(placing_);
+  pose_button_->setToolTip(
+      may ? tr("tell the robot where it stands: press on the map, drag to its heading, confirm")
+          : tr("set pose: %1").arg(why));
+}
+
+void SceneTile::arrange() {
+  const QSize area = canvas_->size();
+  chip_->move(area.width() - chip_->width() - kPanelOffset_px, kPanelOffset_px);
+  pose_panel_->move(std::max(kPanelOffset_px, (area.width() - pose_panel_->width()) / 2),
+                    area.height() - pose_panel_->height() - kPanelOffset_px);
+  place_panel_->move(area.width() - place_panel_->width() - kPanelOffset_px,
+                     std::max(chip_->geometry().bottom() + kPanelOffset_px,
+                              area.height() - place_panel_->height() - kPanelOffset_px));
+}
+
+bool SceneTile::eventFilter(QObject* watched, QEvent* event) {
+  if (watched == canvas_ && event->type() == QEvent::Resize) arrange();
+  return Tile::eventFilter(watched, event);
+}
 
 void SceneTile::takeStatus() {
   if (const RobotStatus* status = models_.status.status()) state_.setStatus(*status);
@@ -71,7 +155,8 @@ void SceneTile::takeAges() {
   for (const SceneLayer l :
        {SceneLayer::Planned, SceneLayer::Places, SceneLayer::Fire, SceneLayer::Jet})
     state_.setAge(l, scene_s);
-  state_.setAge(SceneLayer::Map, models_.scene.scene() ? 0.0 : -1.0);  // nominal: does not age
+  state_.setAge(SceneLayer::Walls, models_.scene.scene() ? 0.0 : -1.0);  // nominal: does not age
+  state_.setAge(SceneLayer::Map, models_.map.layer() ? 0.0 : -1.0);
 }
 
 void SceneTile::refresh() {
@@ -110,6 +195,22 @@ QWidget* SceneTile::makeCameraButtons() {
     camera_buttons_->addButton(button, static_cast<int>(b.mode));
     row->addWidget(button);
   }
+  const auto tool = [row](const QString& text) {
+    auto* button = new QToolButton;
+    button->setText(text);
+    button->setAutoRaise(true);
+    button->setFocusPolicy(Qt::NoFocus);
+    row->addWidget(button);
+    return button;
+  };
+  row->insertSpacing(0, 6);
+  place_button_ = tool(tr("places"));
+  place_button_->setToolTip(tr("fire places: configured against sensed, and to move one"));
+  connect(place_button_, &QToolButton::clicked, place_panel_, &PlacePanel::toggle);
+  pose_button_ = tool(tr("set pose"));
+  pose_button_->setCheckable(true);
+  connect(pose_button_, &QToolButton::clicked, this,
+          [this] { placer_.active() ? placer_.cancel() : placer_.start(); });
   connect(camera_buttons_, &QButtonGroup::idClicked, this,
           [this](int id) { canvas_->setCameraMode(static_cast<Mode>(id)); });
   connect(&ui_.theme, &Theme::changed, this, &SceneTile::markCameraButton);
@@ -128,6 +229,14 @@ void SceneTile::markCameraButton() {
                        " color: %1; background: %2; }")
             .arg(on ? p.text.name() : p.dim.name(),
                  on ? p.raised.name() : QStringLiteral("transparent")));
+  }
+  for (QToolButton* button : {place_button_, pose_button_}) {
+    button->setFont(ui_.theme.font(TextRole::Small));
+    button->setStyleSheet(
+        QStringLiteral("QToolButton { border: 1px solid %3; padding: 0px 6px; border-radius: 3px;"
+                       " color: %1; } QToolButton:disabled { color: %2; }"
+                       " QToolButton:checked { background: %4; }")
+            .arg(p.text.name(), p.faint.name(), p.border.name(), p.manual_fill.name()));
   }
 }
 

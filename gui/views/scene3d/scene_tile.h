@@ -1,14 +1,20 @@
 #pragma once
 
+#include "gui/models/place_nudge.h"
+#include "gui/models/pose_placer.h"
 #include "gui/models/station_models.h"
 #include "gui/views/scene3d/scene_canvas.h"
 #include "gui/widgets/tile.h"
 
 class QButtonGroup;
+class QToolButton;
 
 namespace kiln::gui {
 
 class LayerPanel;
+class LocalizationChip;
+class PlacePanel;
+class PosePanel;
 
 /// The 3D scene as a tile, fed by the models.
 class SceneTile : public Tile {
@@ -21,8 +27,21 @@ class SceneTile : public Tile {
   [[nodiscard]] const SceneState& state() const { return state_; }
   /// Shows or hides the list of layers.
   void toggleLayerPanel();
+  [[nodiscard]] PosePlacer& posePlacer() { return placer_; }
+  [[nodiscard]] PlaceNudge& placeNudge() { return nudge_; }
+  [[nodiscard]] PosePanel* posePanel() const { return pose_panel_; }
+  [[nodiscard]] PlacePanel* placePanel() const { return place_panel_; }
+  [[nodiscard]] LocalizationChip* localizationChip() const { return chip_; }
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
+  void takeMap();
+  void takeIntent();
+  void watchPlacing();
+  void arrange();
+  void refreshPoseButton();
   void takeStatus();
   void takeAges();
   void refresh();
@@ -35,6 +54,14 @@ class SceneTile : public Tile {
   SceneCanvas* canvas_;
   LayerPanel* layers_;
   QButtonGroup* camera_buttons_;
+  PosePlacer placer_;
+  PlaceNudge nudge_;
+  LocalizationChip* chip_;
+  PosePanel* pose_panel_;
+  PlacePanel* place_panel_;
+  QToolButton *pose_button_ = nullptr, *place_button_ = nullptr;
+  OrbitCamera::Mode before_placing_ = OrbitCamera::Mode::Follow;
+  bool placing_ = false;
 };
 
 }  // namespace kiln::gui

@@ -54,13 +54,30 @@ void paintGrid(const Sheet& s) {
 }
 
 void paintArena(const Sheet& s) {
-  if (!s.layer(SceneLayer::Map).visible) return;
-  s.painter.setPen(QPen(s.color(s.colors.wall_edge, SceneLayer::Map), 1));
-  s.painter.setBrush(s.color(s.colors.wall, SceneLayer::Map, 70));
+  if (!s.layer(SceneLayer::Walls).visible) return;
+  s.painter.setPen(QPen(s.color(s.colors.wall_edge, SceneLayer::Walls), 1));
+  s.painter.setBrush(s.color(s.colors.wall, SceneLayer::Walls, 70));
   for (const SceneBox& box : s.snapshot.arena) {
     // A lintel hangs above the robot: it is not in the way and would close the door in this view.
     if (box.X_map_box.translation().z() - box.half_extent.z() > 1.8) continue;
     s.painter.drawPolygon(s.footprint(box.X_map_box, box.half_extent));
+  }
+}
+
+void paintMap(const Sheet& s) {
+  if (!s.layer(SceneLayer::Map).visible || !s.snapshot.map) return;
+  const MapLayer& map = *s.snapshot.map;
+  const std::size_t stride = std::max<std::size_t>(1, map.points_map.size() / kPointBudget);
+  std::vector<QPointF> in_use, idle;
+  for (std::size_t i = 0; i < map.points_map.size(); i += stride) {
+    const Eigen::Vector3f& p = map.points_map[i];
+    const bool used = s.snapshot.submap < 0 || map.submap_of[i] == s.snapshot.submap;
+    (used ? in_use : idle).push_back(s.at(p.x(), p.y()));
+  }
+  for (const auto& [points, rgb] :
+       {std::pair{&idle, s.colors.map_points_idle}, {&in_use, s.colors.map_points}}) {
+    s.painter.setPen(QPen(qt(rgb), 2));
+    s.painter.drawPoints(points->data(), static_cast<int>(points->size()));
   }
 }
 
@@ -99,8 +116,13 @@ void paintPaths(const Sheet& s) {
   s.painter.setPen(QPen(s.color(s.colors.planned, SceneLayer::Planned), 2));
   for (const Pose2& X : s.snapshot.planned.waypoints_map) {
     line << s.at(X.x_m, X.y_m);
-    s.painter.drawLine(s.at(X.x_m, X.y_m),
-                       s.at(X.x_m + 0.3 * std::cos(X.yaw_rad), X.y_m + 0.3 * std::sin(X.yaw_rad)));
+    const auto along = [&](double forward, double left) {
+      const double c = std::cos(X.yaw_rad), n = std::sin(X.yaw_rad);
+      return s.at(X.x_m + forward * c - left * n, X.y_m + forward * n + left * c);
+    };
+    s.painter.drawLine(along(-0.18, 0), along(0.18, 0));
+    s.painter.drawPolyline(QPolygonF()
+                           << along(0.06, 0.12) << along(0.18, 0) << along(0.06, -0.12));
   }
   s.painter.drawPolyline(line);
 }
@@ -108,7 +130,7 @@ void paintPaths(const Sheet& s) {
 void paintRobot(const Sheet& s, const RobotShape& shape) {
   if (!s.layer(SceneLayer::Robot).visible || !s.snapshot.robot_known) return;
   const bool ghost = s.layer(SceneLayer::Robot).freshness == Freshness::Stale;
-  const Eigen::Isometry3d X_map_base = toIsometry(s.snapshot.X_map_base);
+  const Eigen::Isometry3d X_map_base = s.snapshot.robotPose();
   const auto poses = shape.poses(s.snapshot.q, s.snapshot.steer);
   QPolygonF arm;
   for (std::size_t i = 0; i < poses.size(); ++i) {
@@ -165,6 +187,7 @@ void paintTopView(QPainter& painter, const SceneSnapshot& snapshot, const OrbitC
   const Sheet sheet{painter, snapshot, camera, colors, size};
   painter.fillRect(QRect(QPoint(0, 0), size), qt(colors.ground));
   paintGrid(sheet);
+  paintMap(sheet);
   paintArena(sheet);
   paintCloud(sheet);
   paintPaths(sheet);

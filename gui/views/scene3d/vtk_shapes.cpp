@@ -5,14 +5,18 @@
 
 #include <vtkActor.h>
 #include <vtkCellArray.h>
+#include <vtkFloatArray.h>
+#include <vtkIdTypeArray.h>
 #include <vtkMatrix4x4.h>
 #include <vtkNew.h>
+#include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
+#include <vtkUnsignedCharArray.h>
 
 namespace kiln::gui {
 namespace {
@@ -114,6 +118,24 @@ vtkSmartPointer<vtkPolyData> lineMesh(const std::vector<std::vector<Eigen::Vecto
   auto mesh = vtkSmartPointer<vtkPolyData>::New();
   mesh->SetPoints(points);
   mesh->SetLines(cells);
+  return mesh;
+}
+
+vtkSmartPointer<vtkPolyData> pointMesh(vtkFloatArray* xyz, vtkUnsignedCharArray* rgb) {
+  const vtkIdType n = xyz->GetNumberOfTuples();
+  vtkNew<vtkPoints> points;
+  points->SetData(xyz);
+  vtkNew<vtkIdTypeArray> offsets, ids;
+  offsets->SetNumberOfValues(n + 1);
+  ids->SetNumberOfValues(n);
+  for (vtkIdType i = 0; i < n; ++i) ids->SetValue(i, i);
+  for (vtkIdType i = 0; i <= n; ++i) offsets->SetValue(i, i);
+  vtkNew<vtkCellArray> cells;
+  cells->SetData(offsets, ids);
+  auto mesh = vtkSmartPointer<vtkPolyData>::New();
+  mesh->SetPoints(points);
+  mesh->SetVerts(cells);
+  mesh->GetPointData()->SetScalars(rgb);
   return mesh;
 }
 

@@ -7,6 +7,8 @@
 #include "gui/views/color/perceptual_map.h"
 
 class vtkActor;
+class vtkFloatArray;
+class vtkUnsignedCharArray;
 class vtkPolyData;
 class vtkRenderer;
 template <class T>
@@ -27,6 +29,9 @@ namespace kiln::gui {
 /// One polyline for each list; lists of fewer than two points are left out.
 [[nodiscard]] vtkSmartPointer<vtkPolyData> lineMesh(
     const std::vector<std::vector<Eigen::Vector3d>>& lines);
+
+/// Coloured points; arrays of three components and equal length.
+[[nodiscard]] vtkSmartPointer<vtkPolyData> pointMesh(vtkFloatArray* xyz, vtkUnsignedCharArray* rgb);
 
 [[nodiscard]] vtkSmartPointer<vtkActor> addActor(vtkRenderer& renderer, vtkPolyData* mesh);
 void setMesh(vtkActor& actor, vtkPolyData* mesh);

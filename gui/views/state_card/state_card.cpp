@@ -23,6 +23,7 @@ StateCard::StateCard(const Ui& ui, StationModels& models, ForcedJump& jump, QWid
       notice_(new Banner(ui)),
       display_(new Banner(ui)),
       ticks_(new TickList(ui)),
+      preflight_(new PreflightList(ui)),
       release_(new HoldButton(ui, tr("Release protective stop"), 1.0)),
       exits_title_(new Banner(ui, TextRole::Small)),
       exits_grid_(new QGridLayout) {
@@ -39,6 +40,7 @@ StateCard::StateCard(const Ui& ui, StationModels& models, ForcedJump& jump, QWid
   column->addWidget(release_);
   column->addWidget(display_);
   column->addWidget(ticks_);
+  column->addWidget(preflight_, 100);
   column->addStretch(1);
   column->addWidget(exits_title_);
   column->addLayout(exits_grid_);
@@ -75,16 +77,6 @@ std::vector<TickList::Row> StateCard::guardRows(const FsmStatus& fsm) const {
       row.detail = tr("no input yet");
     }
     rows.push_back(std::move(row));
-  }
-  return rows;
-}
-
-std::vector<TickList::Row> StateCard::checkRows(const RobotStatus& status) const {
-  std::vector<TickList::Row> rows;
-  for (const Check& check : status.checks) {
-    rows.push_back({check.ok ? TickList::Mark::Met : TickList::Mark::Attention,
-                    QString::fromStdString(check.name), QString::fromStdString(check.detail),
-                    AgeLevel::Fresh});
   }
   return rows;
 }
@@ -138,11 +130,17 @@ void StateCard::refresh() {
   refreshNotice();
   const bool not_ready = status && models_.status.word() == StatusWord::NotReady;
   if (fsm) refreshHeader(*fsm);
-  if (not_ready) setInfo(tr("checks before a start"));
-  ticks_->setRows(not_ready ? checkRows(*status)
-                  : fsm     ? guardRows(*fsm)
-                            : std::vector<TickList::Row>{});
-  display_->set(fsm ? QString::fromStdString(fsm->display_text) : QString{});
+  preflight_->setVisible(not_ready);
+  ticks_->setVisible(!not_ready);
+  if (not_ready) {
+    preflight_->setChecks(status->checks);
+    setTitle(tr("Before a start"));
+    setInfo(preflight_->failing() == 0
+                ? tr("%1 checks hold").arg(preflight_->total())
+                : tr("%1 of %2 checks fail").arg(preflight_->failing()).arg(preflight_->total()));
+  }
+  ticks_->setRows(fsm && !not_ready ? guardRows(*fsm) : std::vector<TickList::Row>{});
+  display_->set(fsm && !not_ready ? QString::fromStdString(fsm->display_text) : QString{});
   refreshExits();
 }
 
@@ -171,7 +169,8 @@ void StateCard::refreshExits() {
   }
   QString why;
   const bool may = models_.mayCommand(&why);
-  const int shown = release_->isHidden() ? kMaxExits : kExitsBesideRelease;
+  const bool checks = !preflight_->isHidden();  // they need the room
+  const int shown = checks ? 0 : release_->isHidden() ? kMaxExits : kExitsBesideRelease;
   for (std::size_t i = 0; i < exits_.size(); ++i) {
     ActButton* button = exits_[i];
     button->setVisible(static_cast<int>(i) < shown);
@@ -179,7 +178,7 @@ void StateCard::refreshExits() {
     button->setToolTip(may ? tr("%1\nThen hold to jump, below the graph.").arg(button->subtext())
                            : why);
   }
-  exits_title_->set(exits_.empty() ? QString{} : tr("Go to instead"));
+  exits_title_->set(exits_.empty() || checks ? QString{} : tr("Go to instead"));
 }
 
 }  // namespace kiln::gui

@@ -55,8 +55,9 @@ void LeaseChip::refresh() {
   button_->setKind(holder == LeaseHolder::Free   ? ActKind::Primary
                    : !lease_.askedBy().isEmpty() ? ActKind::Caution
                                                  : ActKind::Normal);
-  button_->setEnabled(holder != LeaseHolder::Unknown && !lease_.requesting());
-  setToolTip(lease_.refusal().isEmpty()
+  button_->setEnabled(lease_.possible() && holder != LeaseHolder::Unknown && !lease_.requesting());
+  setToolTip(!lease_.possible() ? tr("A recording cannot be commanded.")
+             : lease_.refusal().isEmpty()
                  ? tr("The lease lets one station command the robot. STOP needs no lease.")
                  : tr("Refused: %1").arg(lease_.refusal()));
   update();

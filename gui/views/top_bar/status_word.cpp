@@ -32,6 +32,7 @@ QString StatusBlock::word() const { return fromView(toString(models_.status.word
 QString StatusBlock::reason() const {
   const StatusWord word = models_.status.word();
   const LinkHealth& link = models_.link_state.health();
+  if (word == StatusWord::NoLink && models_.link.readOnly()) return tr("nothing recorded here");
   if (word == StatusWord::NoLink) return link.reason.isEmpty() ? tr("connecting …") : link.reason;
   const RobotStatus& status = *models_.status.status();
   if (!status.reason.empty()) return QString::fromStdString(status.reason);

@@ -40,12 +40,22 @@ class StateCardTest : public testing::Test {
 TEST_F(StateCardTest, ShowsTheChecksWhileNotReady) {
   RobotStatus status = *station.models.status.status();
   status.word = StatusWord::NotReady;
-  status.checks = {{"LiDAR", false, "no scan yet"}, {"Disk", true, "41 GB free"}};
+  status.checks = {{"Disk", true, "41 GB free"},
+                   {"LiDAR", false, "no scan yet", "check its cable and power"}};
   emit station.link.status(std::make_shared<const RobotStatus>(status));
   station.settle();
-  ASSERT_EQ(card.ticks()->rows().size(), 2U);
-  EXPECT_EQ(card.ticks()->rows()[0].mark, TickList::Mark::Attention);
-  EXPECT_EQ(card.ticks()->rows()[1].mark, TickList::Mark::Met);
+  ASSERT_TRUE(card.preflight()->isVisible());
+  EXPECT_EQ(card.preflight()->total(), 2);
+  EXPECT_EQ(card.preflight()->failing(), 1);
+  const int with_action = card.preflight()->heightForWidth(300);
+  status.checks[1].action.clear();
+  emit station.link.status(std::make_shared<const RobotStatus>(status));
+  station.settle();
+  EXPECT_LT(card.preflight()->heightForWidth(300), with_action) << "what to do needs a line";
+  status.word = StatusWord::Ready;
+  emit station.link.status(std::make_shared<const RobotStatus>(status));
+  station.settle();
+  EXPECT_FALSE(card.preflight()->isVisible());
 }
 
 TEST_F(StateCardTest, OffersTheReleaseOfAProtectiveStopOnlyInOne) {

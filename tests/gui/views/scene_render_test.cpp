@@ -31,7 +31,7 @@ TEST_F(StationTest, RendererShowsAndHidesLayers) {
   };
   const QImage all = draw();
   ASSERT_EQ(all.size(), QSize(320, 240));
-  for (const SceneLayer layer : {SceneLayer::Robot, SceneLayer::Lidar, SceneLayer::Map}) {
+  for (const SceneLayer layer : {SceneLayer::Robot, SceneLayer::Lidar, SceneLayer::Walls}) {
     state.setVisible(layer, false);
     EXPECT_GT(differing(all, draw()), 200) << toString(layer);
     state.setVisible(layer, true);

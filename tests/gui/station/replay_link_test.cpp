@@ -1,0 +1,108 @@
+#include "gui/link/replay_link.h"
+
+#include <QTemporaryDir>
+#include <QTest>
+
+#include <gtest/gtest.h>
+
+#include "common/record/record_writer.h"
+#include "common/record/run_topics.h"
+#include "common/record/schema.h"
+#include "common/wire/telemetry.h"
+#include "gui/models/station_models.h"
+
+namespace kiln::gui {
+namespace {
+
+constexpr int kPatience_ms = 5000;
+constexpr double kStart_s = 100.0;
+constexpr int kStatuses = 601;  // a minute at 10 Hz
+
+Stamp at(double s) { return Stamp{fromSeconds(s)}; }
+
+/// One minute of statuses whose sequence number is the tenth of a second since the start.
+class ReplayLinkTest : public testing::Test {
+ protected:
+  ReplayLinkTest() {
+    auto writer = RecordWriter::create(file());
+    EXPECT_TRUE(writer) << writer.error();
+    EXPECT_TRUE((*writer)->attach(std::string(run::kRunAttachment), "application/json",
+                                  R"({"robot_name": "Bob"})", at(kStart_s)));
+    const auto channel = (*writer)->addChannel(run::topicName(Topic::RobotStatus),
+                                               *protobufSchema("kiln.v1.RobotStatus"));
+    EXPECT_TRUE(channel) << channel.error();
+    for (int i = 0; i < kStatuses; ++i) {
+      RobotStatus status;
+      status.stamp = at(kStart_s + 0.1 * i);
+      status.seq = static_cast<std::uint64_t>(i);
+      status.environment = Environment::Sim;
+      status.word = StatusWord::Auto;
+      EXPECT_TRUE((*writer)->write(*channel, status.stamp, status.stamp, wire::encode(status)));
+    }
+    EXPECT_TRUE((*writer)->close());
+    auto opened = ReplayLink::open(file());
+    EXPECT_TRUE(opened) << opened.error();
+    link = std::move(*opened);
+    models = std::make_unique<StationModels>(*link);
+  }
+  ~ReplayLinkTest() override { link->close(); }
+  [[nodiscard]] std::string file() const { return folder.filePath("run.mcap").toStdString(); }
+  [[nodiscard]] std::uint64_t seq() const {
+    return models->status.status() ? models->status.status()->seq : 0;
+  }
+  QTemporaryDir folder;
+  std::unique_ptr<ReplayLink> link;
+  std::unique_ptr<StationModels> models;
+};
+
+TEST_F(ReplayLinkTest, PlaysAsAReplayAndCannotBeCommanded) {
+  link->open();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return models->status.hasData(); }, kPatience_ms));
+  EXPECT_EQ(models->status.status()->environment, Environment::Replay);
+  QString why;
+  EXPECT_FALSE(models->mayCommand(&why));
+  EXPECT_TRUE(why.contains("recording")) << why.toStdString();
+  const auto nonce = models->commands.send(Pause{}, "pause");
+  EXPECT_EQ(models->commands.find(nonce)->phase, CommandPhase::NotSent);
+}
+
+TEST_F(ReplayLinkTest, AJumpShowsThatMomentAndNothingGrowsOldWhilePaused) {
+  link->open();
+  link->setPlaying(false);
+  link->seek(at(kStart_s + 40.0));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return seq() == 400; }, kPatience_ms)) << seq();
+  EXPECT_EQ(models->status.ageLevel(), AgeLevel::Fresh);
+  EXPECT_EQ(models->status.word(), StatusWord::Auto);
+  link->seek(at(kStart_s + 10.0));  // back as well
+  ASSERT_TRUE(QTest::qWaitFor([&] { return seq() == 100; }, kPatience_ms)) << seq();
+  link->step(0.1);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return seq() == 101; }, kPatience_ms)) << seq();
+  EXPECT_FALSE(link->playback().playing);
+  link->step(-0.2);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return seq() == 99; }, kPatience_ms)) << seq();
+}
+
+TEST_F(ReplayLinkTest, TheSpeedIsClampedAndTheEndIsTold) {
+  link->open();
+  link->setSpeed(1000.0);
+  link->seek(at(kStart_s + 59.0));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return link->playback().ended; }, kPatience_ms));
+  EXPECT_EQ(link->playback().speed, ReplayLink::kFastest);
+  EXPECT_EQ(seq(), 600U);
+}
+
+TEST_F(ReplayLinkTest, StopPausesARecording) {
+  link->open();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return link->playback().playing; }, kPatience_ms));
+  link->stop();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return !link->playback().playing; }, kPatience_ms));
+}
+
+TEST(ReplayLink, AFileThatIsNoRecordingIsRefusedWithASentence) {
+  const auto missing = ReplayLink::open("/nowhere/run.mcap");
+  ASSERT_FALSE(missing.has_value());
+  EXPECT_NE(missing.error().message.find("run.mcap"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace kiln::gui
