@@ -18,6 +18,8 @@ constexpr double kDeg = M_PI / 180.0;
 constexpr double kMaxTick = 0.05;      // s; a longer gap is a slipped tick, not a longer step
 constexpr double kMovingSpeed = 0.02;  // m/s; slower, the target decides where the wheels point
 constexpr double kRestSpeed = 0.01;    // m/s, measured
+constexpr double kSteadyAccel = 0.05;  // m/s^2; faster changes are the drives' own affair ...
+constexpr double kSteadyTime = 0.3;    // s; ... and so is settling after them
 
 bool isFinite(const Twist2& t) {
   return std::isfinite(t.vx_mps) && std::isfinite(t.vy_mps) && std::isfinite(t.wz_radps);
@@ -39,6 +41,9 @@ void BaseController::Config::visit(ConfigArchive& a) {
           "slower wheels keep their angle");
   a.field("align_wait_deg", align_wait_deg, "deg", 5, 80, "stop and turn wheels further off");
   a.field("align_done_deg", align_done_deg, "deg", 0.5, 30, "turned far enough to drive");
+  a.field("speed_integral_hz", speed_integral_hz, "1/s", 0, 10,
+          "integral action on the measured speed; 0: none");
+  a.field("max_trim_mps", max_trim_mps, "m/s", 0, 0.5, "limit of that correction");
 }
 
 struct BaseController::Impl {
@@ -108,12 +113,26 @@ struct BaseController::Impl {
     }
   }
 
+  /// Slope: what the drives leave of the commanded speed, summed up while it is steady. At rest the
+  /// sum is the way rolled back, so that it holds the place. Blind it gives nothing.
+  void updateTrim(bool fresh, double dt) {
+    if (!fresh) trim.setZero();
+    const bool steady = fresh && !aligning && limiter.acceleration().norm() < kSteadyAccel;
+    steady_s = steady ? steady_s + dt : 0.0;
+    if (steady_s < kSteadyTime) return;
+    const Eigen::Vector2d missing = limiter.velocity().head<2>() -
+                                    Eigen::Vector2d(measured.twist.vx_mps, measured.twist.vy_mps);
+    trim += config.speed_integral_hz * dt * missing;
+    const double size = trim.norm();
+    if (size > config.max_trim_mps) trim *= config.max_trim_mps / size;
+  }
+
   /// Each wheel drives what its present direction can give of the rigid motion: the cosine of its
   /// error, and reversed when it points the other way.
   WheelCommands drive() const {
     WheelCommands out;
     for (std::size_t i = 0; i < 4; ++i) {
-      const Eigen::Vector2d v = kinematics.wheelVelocity(i, twistOf(limiter.velocity()));
+      const Eigen::Vector2d v = kinematics.wheelVelocity(i, twistOf(limiter.velocity())) + trim;
       const double angle = measured_steer[i];
       out[i].steer_rad = steer_command[i];
       out[i].drive_radps =
@@ -126,7 +145,10 @@ struct BaseController::Impl {
     if (!state || !kiln::isFinite(*state)) return;
     if (reset_odometry.exchange(false)) odometry.reset();
     odometry.update(kinematics, *state);
-    for (std::size_t i = 0; i < 4; ++i) measured_steer[i] = state->wheels[i].steer_rad;
+    for (std::size_t i = 0; i < 4; ++i) {
+      measured_steer[i] = state->wheels[i].steer_rad;
+      current[i] = state->wheels[i].drive_current_a;
+    }
     if (!seen_state) steer_command = measured_steer;
     seen_state = true;
     measured = kinematics.forward(state->wheels);
@@ -139,6 +161,8 @@ struct BaseController::Impl {
     tracking.commanded = twistOf(limiter.velocity());
     tracking.measured = measured.twist;
     tracking.slip_mps = measured.residual_mps;
+    tracking.trim_mps = trim.norm();
+    tracking.drive_current_a = current;
     tracking.X_odom_base = odometry.pose();
     tracking.aligning = aligning;
     tracking.at_rest =
@@ -154,7 +178,9 @@ struct BaseController::Impl {
   SetpointSlot<BaseSetpoint> slot;
   JerkLimiter<3> limiter;
   WheelOdometry odometry;
-  std::array<double, 4> steer_command{}, measured_steer{};
+  std::array<double, 4> steer_command{}, measured_steer{}, current{};
+  Eigen::Vector2d trim = Eigen::Vector2d::Zero();  ///< base frame
+  double steady_s = 0.0;
   SwerveTwist measured;
   bool aligning = false, seen_state = false;
   std::optional<Stamp> last_tick;
@@ -192,18 +218,19 @@ void BaseController::tick(Stamp now) {
   const bool blocked = !wish.blocked.empty();
   const WheelCommands wanted = m.steer(wish.target);
   m.updateAligning(wanted);
+  const bool fresh = state && toSeconds(now - state->stamp) <= m.config.max_state_age_s;
   if (dt > 0.0) {
     m.turnWheels(wanted, dt);
     const MotionLimits limits =
         blocked ? MotionLimits{m.config.stop_decel_mps2, m.config.stop_jerk_mps3}
                 : MotionLimits{m.config.max_accel_mps2, m.config.max_jerk_mps3};
     m.limiter.step(m.aligning ? Eigen::Vector3d::Zero() : wish.target, limits, dt);
+    m.updateTrim(fresh, dt);
   }
   if (m.seen_state) {
     const auto written = m.base.write(m.drive());
     if (!written && wish.blocked.empty()) wish.blocked = written.error().message;
   }
-  const bool fresh = state && toSeconds(now - state->stamp) <= m.config.max_state_age_s;
   m.publish(now, wish, fresh);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <string>
 
@@ -26,7 +27,9 @@ struct BaseTracking {
   Twist2 measured;        ///< from the wheels
   Pose2 X_odom_base;      ///< wheel odometry since the last reset
   double slip_mps = 0.0;  ///< rms disagreement of the wheels with one rigid motion
-  bool aligning = false;  ///< waits for the wheels to point the right way
+  double trim_mps = 0.0;  ///< added to the commanded speed against slope and weak drives
+  std::array<double, 4> drive_current_a{};  ///< measured, order as in BaseState
+  bool aligning = false;                    ///< waits for the wheels to point the right way
   bool stop_latched = false;
   bool at_rest = true;
   std::string blocked;
@@ -34,8 +37,10 @@ struct BaseTracking {
 
 /// Four steered wheels: inverse kinematics with steering range and rate limits (waits for the
 /// wheels to point the right way before driving), velocity, acceleration and jerk limits, odometry
-/// from the measured wheels. setpoint()/tracking() thread-safe; tick() confined to the control
-/// thread.
+/// from the measured wheels. Integral action on the measured speed carries the robot up a slope at
+/// the commanded speed and keeps it from rolling back at rest, also with drives whose own loop
+/// gives way under load; there is no power limit. setpoint()/tracking() thread-safe; tick()
+/// confined to the control thread.
 class BaseController {
  public:
   struct Config {
@@ -52,6 +57,9 @@ class BaseController {
     double min_wheel_speed_mps = 0.004;  ///< slower wheels keep their angle
     double align_wait_deg = 30.0;        ///< a wheel further off than this: stop and turn it first
     double align_done_deg = 4.0;
+    double speed_integral_hz = 3.0;  ///< measured speed that stays behind is made good; 0: not
+    double max_trim_mps = 0.05;      ///< by no more than this: twice what 4 degrees need, and too
+                                 ///< little to hide a runaway
     void visit(ConfigArchive& a);
   };
   BaseController(Config config, const RobotGeometry& robot, DriveBase& base, const StopLatch& stop);

@@ -94,7 +94,11 @@ void Walkers::move(Walker& w, double step_s, const Eigen::Vector2d& p_robot) con
   const Eigen::Vector2d way = w.goal - w.p;
   const double stride = kSpeed_mps * step_s;
   next = way.norm() <= stride ? w.goal : Eigen::Vector2d(w.p + stride * way.normalized());
-  if ((next - p_robot).norm() < kRobotDistance_m) return;  // waits until the robot has passed
+  if ((next - p_robot).norm() < kRobotDistance_m) {  // not past the robot: somewhere else, then
+    w.goal = w.p;
+    w.rest_s = 0.5;
+    return;
+  }
   w.p = next;
 }
 

@@ -80,6 +80,8 @@ void DriveTo::Config::visit(ConfigArchive& a) {
   a.field("geofence_slack_m", geofence_slack_m, "m", 0, 5, "base may pass the fence by this");
   a.field("stuck_window_s", stuck_window_s, "s", 0.5, 30, "time over which the way is compared");
   a.field("stuck_ratio", stuck_ratio, "", 0.01, 0.9, "less of the commanded way is stuck");
+  a.field("edge_speed_mps", edge_speed_mps, "m/s", 0.05, 2, "over the edge before the door");
+  a.field("edge_distance_m", edge_distance_m, "m", 0, 2, "slow from so far before it on");
   a.field("footprint_length_m", footprint_length_m, "m", 0, 5, "checked against known boxes");
   a.field("footprint_width_m", footprint_width_m, "m", 0, 5, "checked against known boxes");
 }
@@ -148,12 +150,23 @@ struct DriveTo::Impl {
     stuck.restart(now, here);
   }
 
+  /// While any part of the base is near the surveyed edge.
+  double edgeRate() const {
+    if (arena.approach.edge_m <= 0.0) return 1.0;
+    const BasePath::Point ref = path->at(clock_s);
+    const double speed = std::hypot(ref.v_map.vx_mps, ref.v_map.vy_mps);
+    const double away = std::abs(ref.X_map_base.x_m - arena.approach.edge_x_m);
+    if (away > 0.5 * config.footprint_length_m + config.edge_distance_m) return 1.0;
+    return std::min(1.0, config.edge_speed_mps / std::max(1e-6, speed));
+  }
+
   /// The reference moves on in its own time, slower when the base lags behind, not at all while
   /// wheels turn.
   void advanceReference(double dt, double error_m, bool aligning) {
     double wanted =
         (config.wait_error_m - error_m) / std::max(1e-6, config.wait_error_m - config.slow_error_m);
     wanted = aligning ? 0.0 : std::clamp(wanted, 0.0, 1.0);
+    wanted = std::min(wanted, edgeRate());
     rate += std::clamp(wanted - rate, -kRateChange * dt, kRateChange * dt);
     clock_s += rate * dt;
   }

@@ -31,6 +31,8 @@ class DriveTo final : public BaseMotion {
     double timeout_slack_s = 8.0;  ///< and this much more
     double accel_mps2 = 0.5;       ///< along the path and across it in corners
     double yaw_rate_radps = 0.5;
+    double edge_speed_mps = 0.5;       ///< over the arena's edge: a jolt that the arm bears
+    double edge_distance_m = 0.3;      ///< from the nearer wheel on
     double jerk_time_s = 0.25;         ///< ramp of the acceleration
     double max_correction_mps = 0.25;  ///< a jump of the pose asks for no more than this
     double max_correction_radps = 0.3;

@@ -149,7 +149,8 @@ void FakeBase::advance() {
       wheel.steer_rad +=
           std::clamp(command_[i].steer_rad - wheel.steer_rad, -steer_step, steer_step);
       wheel.drive_radps +=
-          (command_[i].drive_radps - wheel.drive_radps) * (1.0 - std::exp(-dt / kDriveLag));
+          (command_[i].drive_radps + sag_mps_ / robot_.wheel_radius_m - wheel.drive_radps) *
+          (1.0 - std::exp(-dt / kDriveLag));
     } else {
       wheel.drive_radps -= std::clamp(wheel.drive_radps, -brake_step, brake_step);
     }
@@ -181,6 +182,10 @@ void FakeBase::freezeState(bool frozen) {
 void FakeBase::jam(bool jammed) {
   const std::lock_guard lock(mutex_);
   jammed_ = jammed;
+}
+void FakeBase::setSag(double speed_mps) {
+  const std::lock_guard lock(mutex_);
+  sag_mps_ = speed_mps;
 }
 void FakeBase::setSteer(const std::array<double, 4>& steer_rad) {
   const std::lock_guard lock(mutex_);

@@ -55,6 +55,8 @@ class FakeBase final : public DriveBase {
 
   void freezeState(bool frozen);
   void jam(bool jammed);  ///< wheels do not turn
+  void setSag(
+      double speed_mps);  ///< what a load takes from each wheel's speed; negative: backwards
   void setSteer(const std::array<double, 4>& steer_rad);
   void setTruePose(const Pose2& X_map_base);
   [[nodiscard]] Pose2 truePose() const;  ///< X_map_base
@@ -69,6 +71,7 @@ class FakeBase final : public DriveBase {
   Pose2 X_map_base_;
   Stamp command_stamp_, last_;
   bool frozen_ = false, jammed_ = false, commanded_ = false;
+  double sag_mps_ = 0.0;
   std::vector<WheelCommands> sent_;
 };
 

@@ -170,13 +170,43 @@ TEST_F(BaseControllerTest, ReversesThroughZeroWithoutDrivingOnCrossedWheels) {
   EXPECT_NEAR(base.truePose().yaw_rad, 0.0, 0.02);
 }
 
+TEST_F(BaseControllerTest, MakesGoodWhatTheDrivesGiveAwayUnderLoadUpToItsLimit) {
+  base.setSag(-0.03);
+  drive({0.5, 0, 0}, 4.0);
+  EXPECT_NEAR(controller.tracking().measured.vx_mps, 0.5, 2e-3);
+  EXPECT_NEAR(controller.tracking().trim_mps, 0.03, 2e-3);
+  EXPECT_EQ(controller.tracking().commanded.vx_mps, 0.5);
+  drive({0, 0, 0}, 3.0);
+  EXPECT_TRUE(controller.tracking().at_rest);
+  EXPECT_NEAR(controller.tracking().measured.vx_mps, 0.0, 1e-3);  // rolls back no more
+  base.setSag(-0.5);
+  drive({0.5, 0, 0}, 4.0);
+  EXPECT_NEAR(controller.tracking().trim_mps, 0.05, 1e-9);
+}
+
+TEST_F(BaseControllerTest, GivesNoTrimWithoutAWheelState) {
+  base.setSag(-0.03);
+  drive({0.5, 0, 0}, 4.0);
+  base.freezeState(true);
+  idle(1.5);
+  EXPECT_EQ(controller.tracking().trim_mps, 0.0);
+  for (const WheelCommand& wheel : base.sent().back()) EXPECT_EQ(wheel.drive_radps, 0.0);
+}
+
+TEST_F(BaseControllerTest, LeavesDrivesThatFollowAlone) {
+  for (const Twist2& twist : {Twist2{0.8, 0, 0}, Twist2{0, 0, 0}, Twist2{-0.3, 0.2, 0.2}}) {
+    drive(twist, 3.0);
+    EXPECT_LT(controller.tracking().trim_mps, 1e-3);
+  }
+}
+
 TEST_F(BaseControllerTest, OdometryCanBeReset) {
   drive({0.5, 0, 0}, 2.0);
   drive({0, 0, 0}, 2.0);
   controller.resetOdometry();
   EXPECT_EQ(controller.tracking().X_odom_base.x_m, 0.0);
   tick();
-  EXPECT_NEAR(controller.tracking().X_odom_base.x_m, 0.0, 1e-9);
+  EXPECT_NEAR(controller.tracking().X_odom_base.x_m, 0.0, 1e-6);
 }
 
 }  // namespace

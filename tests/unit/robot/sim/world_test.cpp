@@ -258,8 +258,11 @@ TEST_F(WorldTest, ServoTargetsUnderWayAtAResetAreDroppedAndLaterJumpsStillStop) 
 
 /// Ten seconds with everything on, as bytes.
 std::string record(std::uint64_t seed) {
-  auto world =
-      World::create(*WorldConfig::load(kiln::sourceDir() + "/resources/worlds/fire.yaml"), seed);
+  WorldConfig config =
+      *WorldConfig::load(kiln::sourceDir() + "/resources/worlds/fire_full.yaml");
+  for (const char* fault : {"people=3@0", "kidnap=0.3@1", "view_blocked@1.5"})
+    config.faults.push_back(*FaultConfig::parse(fault));
+  auto world = World::create(config, seed);
   std::string out;
   WorldCommands c;
   c.sensors = SensorRequest{true, true, false};
