@@ -62,8 +62,8 @@ void addField(::foxglove::PointCloud& cloud, const char* name, std::uint32_t off
   field.set_type(type);
 }
 
-float rounded(float metres) {
-  return std::isfinite(metres) ? std::nearbyint(metres / kCloudStep_m) * kCloudStep_m : metres;
+float rounded(float value, float step) {
+  return std::isfinite(value) ? std::nearbyint(value / step) * step : value;
 }
 
 /// Where a field of `type` lies in an element of `stride` bytes; nullopt if there is none that
@@ -98,11 +98,14 @@ std::string encode(const PointCloud& cloud) {
   data.resize(cloud.size() * kStride);
   char* to = data.data();
   for (std::size_t i = 0; i < cloud.size(); ++i, to += kStride) {
-    const std::array<float, 3> xyz{rounded(cloud.x[i]), rounded(cloud.y[i]), rounded(cloud.z[i])};
+    const std::array<float, 3> xyz{rounded(cloud.x[i], kCloudStep_m),
+                                   rounded(cloud.y[i], kCloudStep_m),
+                                   rounded(cloud.z[i], kCloudStep_m)};
     std::memcpy(to, xyz.data(), 12);
     to[12] = static_cast<char>(cloud.intensity[i]);
     to[13] = static_cast<char>(cloud.ring[i]);
-    std::memcpy(to + 14, &cloud.time_offset_s[i], 4);
+    const float time_s = rounded(cloud.time_offset_s[i], kCloudTimeStep_s);
+    std::memcpy(to + 14, &time_s, 4);
   }
   return out.SerializeAsString();
 }

@@ -12,9 +12,10 @@
 /// what Foxglove, Lichtblick, Rerun and PlotJuggler show as it is.
 namespace kiln::foxglove {
 
-/// Coordinates are rounded to this: half the range resolution of a VLP-16, so that nothing is lost,
-/// and the zero bits behind it compress.
-inline constexpr float kCloudStep_m = 1.0f / 1024.0f;
+/// Coordinates are rounded to the range resolution of a VLP-16 (2 mm, so by at most 1 mm) and times
+/// to 4 us, two firings of its lasers: the zero bits behind them compress.
+inline constexpr float kCloudStep_m = 1.0f / 512.0f;
+inline constexpr float kCloudTimeStep_s = 1.0f / (1 << 18);
 
 /// Fields x y z (float32, m), intensity and ring (uint8), time (float32, s after the stamp).
 [[nodiscard]] std::string encode(const PointCloud& cloud);

@@ -9,13 +9,11 @@
 #include "common/core/atomic_file.h"
 #include "common/core/check.h"
 #include "common/core/log.h"
-#include "robot/app/absent_devices.h"
 #include "robot/app/instance_lock.h"
-#include "robot/app/recorded_sensors.h"
 #include "robot/app/robot.h"
 #include "robot/app/run_loop.h"
+#include "robot/app/runtime.h"
 #include "robot/fsm/uuid.h"
-#include "robot/sim_link/sim_link.h"
 
 namespace {
 
@@ -26,11 +24,11 @@ constexpr int kSuccess = 0, kMissionFailed = 1, kBadInput = 2;
 struct Arguments {
   RobotOptions robot;
   std::string config;
-  std::string sim, lidar, thermal;
+  DeviceSources sources;
   std::string listen = "tcp://127.0.0.1:7300";
   std::string report;
   std::string localization;
-  std::string record_dir, replay;
+  std::string record_dir;
   double replay_speed = 1.0;
   bool record = false;
   double heat_threshold_c = 0.0;
@@ -46,10 +44,11 @@ int fail(const Error& error) {
 }
 
 void addOptions(CLI::App& app, Arguments& a) {
-  app.add_option("--sim", a.sim, "endpoint of kiln-sim, e.g. ipc:///tmp/kiln-sim");
-  app.add_option("--lidar", a.lidar,
+  app.add_option("--sim", a.sources.sim, "endpoint of kiln-sim, e.g. ipc:///tmp/kiln-sim");
+  app.add_option("--lidar", a.sources.lidar,
                  "show a recorded VLP-16 capture: pcap, or raw 1206-byte packets");
-  app.add_option("--thermal", a.thermal, "show recorded Lepton stills from a folder, at 8.77 Hz");
+  app.add_option("--thermal", a.sources.thermal,
+                 "show recorded Lepton stills from a folder, at 8.77 Hz");
   app.add_option("--heat-threshold-c", a.heat_threshold_c,
                  "a heat source is hotter than this (default: the config's)")
       ->check(CLI::Range(1.0, 400.0));
@@ -69,7 +68,8 @@ void addOptions(CLI::App& app, Arguments& a) {
   app.add_option("--record", a.record_dir,
                  "record this run, into this folder (default: recordings in the state folder)")
       ->expected(0, 1);
-  app.add_option("--replay", a.replay, "run perception again on a recorded run (.mcap), then end");
+  app.add_option("--replay", a.sources.replay,
+                 "run perception again on a recorded run (.mcap), then end");
   app.add_option("--replay-speed", a.replay_speed, "0.1 to 10; 0: as fast as possible")
       ->check(CLI::Range(0.0, 10.0));
   app.add_option("--state-dir", a.robot.state_dir,
@@ -112,71 +112,6 @@ Result<void> writeReports(const Arguments& a, const Robot& robot, Stamp now) {
   return writeFileAtomically(a.report + ".timing", timing.dump() + "\n");
 }
 
-/// The world or recorded files: where this robot's devices come from, and the clock and executor
-/// that fit.
-struct Runtime {
-  SteadyClock steady_clock;
-  ManualClock manual_clock;
-  std::unique_ptr<ManualExecutor> manual;
-  std::unique_ptr<ThreadExecutor> threads;
-  std::unique_ptr<SimLink> sim;
-  AbsentDevices absent;
-  RecordedSensors recorded;
-  std::unique_ptr<RecordedRun> run;
-
-  [[nodiscard]] const Clock& clock() const {
-    return manual ? static_cast<const Clock&>(manual_clock)
-                  : static_cast<const Clock&>(steady_clock);
-  }
-  [[nodiscard]] Executor& executor() {
-    return manual ? static_cast<Executor&>(*manual) : static_cast<Executor&>(*threads);
-  }
-  Result<void> open(const Arguments& a);
-  [[nodiscard]] Devices devices();
-};
-
-Result<void> Runtime::open(const Arguments& a) {
-  if (a.robot.lockstep || !a.replay.empty()) {
-    manual = std::make_unique<ManualExecutor>(manual_clock);
-  } else {
-    threads = std::make_unique<ThreadExecutor>(steady_clock, 2);
-  }
-  if (!a.sim.empty()) {
-    SimLink::Config config;
-    config.endpoint = a.sim;
-    config.lockstep = a.robot.lockstep;
-    config.version = KILN_VERSION;
-    auto connected = SimLink::connect(config, clock());
-    if (!connected) return tl::make_unexpected(connected.error());
-    sim = std::move(*connected);
-    if (manual) manual_clock.advanceTo(sim->world().now);
-  }
-  if (!a.replay.empty()) {
-    auto opened = RecordedRun::open(a.replay, steady_clock);
-    if (!opened) return tl::make_unexpected(opened.error());
-    run = std::move(*opened);
-    manual_clock.advanceTo(run->player().start());
-  }
-  return recorded.open(a.lidar, a.thermal, executor());
-}
-
-Devices Runtime::devices() {
-  if (run) return run->devices();
-  if (!sim) {
-    Devices none{absent.arm, absent.base, absent.pumps, absent.arena};
-    none.lidar = recorded.lidar();
-    none.thermal = recorded.thermal();
-    return none;
-  }
-  Devices all{sim->arm(), sim->base(), sim->pumps(), sim->arena()};
-  all.lidar = recorded.lidar() != nullptr ? recorded.lidar() : &sim->lidar();
-  all.thermal = recorded.thermal() != nullptr ? recorded.thermal() : &sim->thermalCamera();
-  all.operator_camera = &sim->operatorCamera();
-  all.connected = [link = sim.get()] { return link->connected(); };
-  all.resets = [link = sim.get()] { return link->resets(); };
-  return all;
-}
-
 Result<std::unique_ptr<OperatorLink>> openLink(const Arguments& a, const RobotSettings& settings,
                                                const Clock& clock, StopLatch& stop) {
   OperatorLink::Config config;
@@ -195,7 +130,7 @@ std::unique_ptr<RunRecorder> makeRecorder(const Arguments& a, RobotSettings& set
   run.mission_uuid = a.robot.mission_uuid;
   run.environment = a.robot.environment == Environment::Sim ? "sim" : "replay";
   run.config_yaml = dumpYaml(ConfigNode{[&](ConfigArchive& node) { settings.visit(node); }});
-  run.lossless = a.robot.lockstep || !a.replay.empty();
+  run.lossless = a.robot.lockstep || !a.sources.replay.empty();
   auto recorder = std::make_unique<RunRecorder>(settings.recording, std::move(run), clock);
   link.setTap(recorder->tap());
   if (a.record) recorder->set(true);
@@ -227,25 +162,35 @@ int printSettings(const Arguments& a) {
   return kSuccess;
 }
 
+Result<void> checkSources(const Arguments& a) {
+  const DeviceSources& from = a.sources;
+  const bool captures = !from.lidar.empty() || !from.thermal.empty();
+  if (from.sim.empty() && from.replay.empty() && !captures) {
+    return makeError(ErrorCode::InvalidInput,
+                     "nothing to run on: give --sim ENDPOINT (a running kiln-sim), --replay FILE, "
+                     "or --lidar FILE and --thermal FOLDER");
+  }
+  if (!from.replay.empty() && (captures || !from.sim.empty())) {
+    return makeError(ErrorCode::InvalidInput,
+                     "--replay stands alone: leave out the other sources of devices");
+  }
+  if (a.robot.lockstep && from.sim.empty())
+    return makeError(ErrorCode::InvalidInput, "--lockstep needs --sim ENDPOINT");
+  return {};
+}
+
 int run(Arguments a) {
   if (a.print_config || a.print_reference) return printSettings(a);
-  if (a.sim.empty() && a.lidar.empty() && a.thermal.empty() && a.replay.empty()) {
-    return fail({ErrorCode::InvalidInput,
-                 "nothing to run on: give --sim ENDPOINT (a running kiln-sim), --replay FILE, or "
-                 "--lidar FILE and --thermal FOLDER"});
-  }
-  if (!a.replay.empty() && (!a.sim.empty() || !a.lidar.empty() || !a.thermal.empty()))
-    return fail({ErrorCode::InvalidInput, "--replay stands alone: leave out the other sources"});
-  if (a.robot.lockstep && a.sim.empty())
-    return fail({ErrorCode::InvalidInput, "--lockstep needs --sim ENDPOINT"});
+  if (auto checked = checkSources(a); !checked) return fail(checked.error());
   auto settings = loadSettings(a);
   if (!settings) return fail(settings.error());
   if (a.robot.state_dir.empty()) a.robot.state_dir = defaultStateFolder();
   auto lock = InstanceLock::acquire(a.robot.state_dir);
   if (!lock) return fail(lock.error());
 
+  a.sources.lockstep = a.robot.lockstep;
   Runtime runtime;
-  if (auto opened = runtime.open(a); !opened) return fail(opened.error());
+  if (auto opened = runtime.open(a.sources, KILN_VERSION); !opened) return fail(opened.error());
   a.robot.version = KILN_VERSION;
   if (runtime.run) a.robot.start_pose = runtime.run->startPose();
   a.robot.environment = runtime.sim ? Environment::Sim : Environment::Replay;

@@ -317,15 +317,14 @@ void OperatorLink::publish(std::vector<MacroInfo> macros) {
   impl_->publish(Topic::Macros, [value = std::move(macros)] { return wire::encode(value); });
 }
 void OperatorLink::publish(LocalizationStatus status) {
-  impl_->end->publish(Topic::Localization,
-                      [value = std::move(status)] { return wire::encode(value); });
+  impl_->publish(Topic::Localization, [value = std::move(status)] { return wire::encode(value); });
 }
 void OperatorLink::publish(Trajectory trajectory) {
-  impl_->end->publish(Topic::Trajectory,
-                      [value = std::move(trajectory)] { return wire::encode(value); });
+  impl_->publish(Topic::Trajectory,
+                 [value = std::move(trajectory)] { return wire::encode(value); });
 }
 void OperatorLink::publish(std::shared_ptr<const MapLayer> layer) {
-  impl_->end->publish(Topic::MapLayer, [value = std::move(layer)] { return wire::encode(*value); });
+  impl_->publish(Topic::MapLayer, [value = std::move(layer)] { return wire::encode(*value); });
 }
 void OperatorLink::publish(LogBatch batch) {
   impl_->publish(Topic::Log, [value = std::move(batch)] { return wire::encode(value); });

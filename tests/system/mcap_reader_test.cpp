@@ -11,6 +11,7 @@
 #include "common/record/record_reader.h"
 #include "common/record/run_topics.h"
 #include "common/wire/fsm.h"
+#include "common/wire/localization.h"
 #include "common/wire/sensor.h"
 #include "common/wire/telemetry.h"
 #include "common/wire/world.h"
@@ -82,6 +83,14 @@ std::string record(const std::string& folder) {
   const std::vector<MacroInfo> macros{{"spray", "", 3, 0.5, ""}};
   const LogBatch log{{{clock.now(), 2, "mission", "started"}, {clock.now(), 4, "arm", "stopped"}},
                      0};
+  LocalizationStatus where;
+  where.method = "surfel map";
+  MapLayer layer;
+  layer.points_map = {{1, 2, 3}};
+  layer.submaps = {"indoor"};
+  layer.submap_of = {0};
+  Trajectory driven;
+  driven.legs = {{0, {{1, 2, 0}, {2, 2, 0}}}};
   const PointCloud points = cloud();
   ThermalImage thermal;
   thermal.counts.assign(160 * 120, 29'500);
@@ -99,6 +108,9 @@ std::string record(const std::string& folder) {
     publish(recorder, Topic::FsmStatus, fsm);
     publish(recorder, Topic::Scene, scene);
     publish(recorder, Topic::Macros, macros);
+    publish(recorder, Topic::Localization, where);
+    publish(recorder, Topic::MapLayer, layer);
+    publish(recorder, Topic::Trajectory, driven);
     publish(recorder, Topic::Log, log);
     recorder.tap().published(
         Topic::Cloud, [&points] { return wire::encode(points, 0.005); }, clock.now());

@@ -1,0 +1,47 @@
+#include "robot/app/runtime.h"
+
+namespace kiln {
+
+Result<void> Runtime::open(const DeviceSources& sources, const std::string& version) {
+  if (sources.lockstep || !sources.replay.empty()) {
+    manual = std::make_unique<ManualExecutor>(manual_clock);
+  } else {
+    threads = std::make_unique<ThreadExecutor>(steady_clock, 2);
+  }
+  if (!sources.sim.empty()) {
+    SimLink::Config config;
+    config.endpoint = sources.sim;
+    config.lockstep = sources.lockstep;
+    config.version = version;
+    auto connected = SimLink::connect(config, clock());
+    if (!connected) return tl::make_unexpected(connected.error());
+    sim = std::move(*connected);
+    if (manual) manual_clock.advanceTo(sim->world().now);
+  }
+  if (!sources.replay.empty()) {
+    auto opened = RecordedRun::open(sources.replay, steady_clock);
+    if (!opened) return tl::make_unexpected(opened.error());
+    run = std::move(*opened);
+    manual_clock.advanceTo(run->player().start());
+  }
+  return recorded_.open(sources.lidar, sources.thermal, executor());
+}
+
+Devices Runtime::devices() {
+  if (run) return run->devices();
+  if (!sim) {
+    Devices none{absent_.arm, absent_.base, absent_.pumps, absent_.arena};
+    none.lidar = recorded_.lidar();
+    none.thermal = recorded_.thermal();
+    return none;
+  }
+  Devices all{sim->arm(), sim->base(), sim->pumps(), sim->arena()};
+  all.lidar = recorded_.lidar() != nullptr ? recorded_.lidar() : &sim->lidar();
+  all.thermal = recorded_.thermal() != nullptr ? recorded_.thermal() : &sim->thermalCamera();
+  all.operator_camera = &sim->operatorCamera();
+  all.connected = [link = sim.get()] { return link->connected(); };
+  all.resets = [link = sim.get()] { return link->resets(); };
+  return all;
+}
+
+}  // namespace kiln
