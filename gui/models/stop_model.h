@@ -24,6 +24,8 @@ class StopModel : public Model {
   }
   [[nodiscard]] const StopLane& lane() const { return lane_; }
   [[nodiscard]] const StopStatus& robot() const { return robot_; }
+  /// Of a recording: there is nothing to stop.
+  [[nodiscard]] bool recorded() const { return link().readOnly(); }
   void press();
   /// Needs the lease; the caller has made the operator hold for 1 s. Moves nothing.
   void clear();

@@ -73,6 +73,9 @@ QString AlarmStrip::summary() const {
 
 void AlarmStrip::refresh() {
   acknowledge_->setVisible(models_.alarms.top() != nullptr);
+  acknowledge_->setEnabled(!models_.link.readOnly());
+  acknowledge_->setToolTip(models_.link.readOnly() ? tr("a recording cannot be commanded")
+                                                   : QString());
   setToolTip(text());
   update();
 }

@@ -10,7 +10,7 @@ namespace kiln::gui {
 namespace {
 constexpr int kPadding_px = 8, kMark_px = 18;
 constexpr int kWidest_px = 300;
-constexpr int kHeight_px = 40;
+constexpr int kTitleBottom_px = 21, kMostDetail_px = 48;
 }  // namespace
 
 LocalizationChip::LocalizationChip(const Ui& ui, const LocalizationModel& model, QWidget* parent)
@@ -55,7 +55,15 @@ QSize LocalizationChip::sizeHint() const {
   const int text =
       std::max(QFontMetrics(ui_.theme.font(TextRole::Strong)).horizontalAdvance(title()),
                QFontMetrics(ui_.theme.font(TextRole::Small)).horizontalAdvance(detail()));
-  return {std::min(kWidest_px, text + 2 * kPadding_px + kMark_px + 2), kHeight_px};
+  const int width = std::min(kWidest_px, text + 2 * kPadding_px + kMark_px + 2);
+  return {width, detailArea(width).bottom() + 5};
+}
+
+QRect LocalizationChip::detailArea(int width) const {
+  const int x = kPadding_px + kMark_px, room = width - x - kPadding_px + 2;
+  const QRect needs = QFontMetrics(ui_.theme.font(TextRole::Small))
+                          .boundingRect(QRect(0, 0, room, 1000), Qt::TextWordWrap, detail());
+  return {x, kTitleBottom_px, room, std::min(needs.height(), kMostDetail_px)};
 }
 
 void LocalizationChip::refresh() {
@@ -110,8 +118,7 @@ void LocalizationChip::paintEvent(QPaintEvent*) {
                    QFontMetrics(strong).elidedText(title(), Qt::ElideRight, room));
   painter.setFont(small);
   painter.setPen(shown == Mark::Good ? p.dim : p.text);
-  painter.drawText(QRect(x, 20, room, 17), Qt::AlignVCenter | Qt::AlignLeft,
-                   QFontMetrics(small).elidedText(detail(), Qt::ElideRight, room));
+  painter.drawText(detailArea(width()), Qt::TextWordWrap | Qt::AlignLeft, detail());
 }
 
 }  // namespace kiln::gui

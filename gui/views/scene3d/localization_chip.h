@@ -27,6 +27,7 @@ class LocalizationChip : public QWidget {
  private:
   enum class Mark : std::uint8_t { Good, Degraded, Lost, Unknown };
   [[nodiscard]] Mark mark() const;
+  [[nodiscard]] QRect detailArea(int width) const;
   void paintMark(QPainter& painter, const QPointF& center, const QColor& color) const;
   Ui ui_;
   const LocalizationModel& model_;

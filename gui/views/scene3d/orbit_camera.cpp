@@ -45,6 +45,13 @@ void OrbitCamera::pan(double dx_px, double dy_px, int height_px) {
   target_ += metres_per_pixel * (-dx_px * right + dy_px * screen_up);
 }
 
+void OrbitCamera::lookAt(const Eigen::Vector3d& target, double distance) {
+  if (mode_ == Mode::Follow) mode_ = Mode::Free;
+  centred_ = false;
+  target_ = target;
+  distance_ = std::clamp(distance, kNearest, kFarthest);
+}
+
 void OrbitCamera::zoom(double notches) {
   distance_ = std::clamp(distance_ * std::pow(kZoomPerNotch, notches), kNearest, kFarthest);
 }

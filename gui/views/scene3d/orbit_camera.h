@@ -25,6 +25,8 @@ class OrbitCamera {
   /// Moves the picture with the mouse; Follow becomes Free and Top stays where it is put, since the
   /// operator wants to look elsewhere. setMode() follows again.
   void pan(double dx_px, double dy_px, int height_px);
+  /// Turns to a point and stays there until setMode(); metres from it.
+  void lookAt(const Eigen::Vector3d& target, double distance);
   /// One wheel notch is +-1; positive comes nearer.
   void zoom(double notches);
 

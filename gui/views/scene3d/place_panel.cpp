@@ -56,12 +56,16 @@ PlacePanel::PlacePanel(const Ui& ui, StationModels& models, PlaceNudge& nudge, Q
   column->addLayout(steps);
   auto* acts = new QGridLayout;
   acts->setSpacing(6);
+  for (const int column : {0, 1}) {
+    acts->setColumnStretch(column, 1);
+    acts->setColumnMinimumWidth(column, (kWidth_px - 22) / 2);
+  }
   sensed_->setToolTip(tr("wish the configured place where the cloud shows the box"));
   cancel_->setToolTip(tr("forget the wish"));
   move_->setKind(ActKind::Manual);
   move_->setSubtext(tr("hold 1 s"));
   go_on_->setKind(ActKind::Caution);
-  go_on_->setSubtext(tr("hold 1 s; you have looked"));
+  go_on_->setSubtext(tr("hold 1 s, look first"));
   for (ActButton* button : {sensed_, cancel_}) button->setFixedHeight(kStepHeight_px);
   for (ActButton* button : {static_cast<ActButton*>(move_), static_cast<ActButton*>(go_on_)})
     button->setFixedHeight(kActHeight_px);
@@ -109,7 +113,10 @@ void PlacePanel::refresh() {
   const QString bad = nudge_.misplaced();
   if (bad.isEmpty()) closed_for_.clear();
   setVisible(opened_ || (!bad.isEmpty() && bad != closed_for_));
-  if (isHidden()) return;
+  if (isHidden()) {
+    emit refreshed();
+    return;
+  }
   const QString place = nudge_.selected();
   const PlaceCheck* check = nudge_.check(place);
   name_->setText(place.isEmpty() ? tr("no fire place") : place);
@@ -122,18 +129,20 @@ void PlacePanel::refresh() {
     text += tr("<br>wish: x %1, y %2, yaw %3")
                 .arg(signedLength(wish.x_m), signedLength(wish.y_m), angleText(wish.yaw_rad));
   }
-  if (!nudge_.refusal().isEmpty()) text += QStringLiteral("<br>") + nudge_.refusal().toHtmlEscaped();
+  if (!nudge_.refusal().isEmpty())
+    text += QStringLiteral("<br>") + nudge_.refusal().toHtmlEscaped();
   const bool caution =
       !nudge_.refusal().isEmpty() || (check && check->verdict == PlaceVerdict::Misplaced);
   words_->set(text, caution ? BannerKind::Caution : BannerKind::Plain);
   refreshButtons();
-  const int height = layout()->hasHeightForWidth() ? layout()->heightForWidth(kWidth_px)
-                                                   : sizeHint().height();
+  const int height =
+      layout()->hasHeightForWidth() ? layout()->heightForWidth(kWidth_px) : sizeHint().height();
   if (QSize(kWidth_px, height) != size()) {
     resize(kWidth_px, height);
     emit resized();
   }
   raise();
+  emit refreshed();
 }
 
 void PlacePanel::refreshButtons() {

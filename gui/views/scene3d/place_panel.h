@@ -28,6 +28,7 @@ class PlacePanel : public QFrame {
 
  signals:
   void resized();
+  void refreshed();  ///< what it shows, or whether it shows
 
  private:
   void refresh();

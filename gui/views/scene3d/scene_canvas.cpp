@@ -48,6 +48,13 @@ void SceneCanvas::setCameraMode(OrbitCamera::Mode mode) {
   emit cameraModeChanged();
 }
 
+void SceneCanvas::lookDownAt(const Eigen::Vector2d& p_map, double distance_m, int aside_px) {
+  setCameraMode(OrbitCamera::Mode::Top);
+  camera_.lookAt({p_map.x(), p_map.y(), 0.0}, distance_m);
+  camera_.pan(-aside_px, 0.0, std::max(1, height()));
+  want();
+}
+
 void SceneCanvas::setIntent(const SceneIntent& intent) {
   intent_ = intent;
   update();

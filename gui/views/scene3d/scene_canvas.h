@@ -27,6 +27,8 @@ class SceneCanvas : public QWidget {
               QWidget* parent = nullptr);
   void show(const SceneSnapshot& snapshot);
   void setCameraMode(OrbitCamera::Mode mode);
+  /// From above on a point of the ground, `aside_px` left of the middle of the picture.
+  void lookDownAt(const Eigen::Vector2d& p_map, double distance_m, int aside_px);
   /// What the operator is about to do; drawn as ghosts.
   void setIntent(const SceneIntent& intent);
   /// While on, a press with the left button points at the ground instead of turning the camera.

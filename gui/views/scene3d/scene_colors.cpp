@@ -20,8 +20,8 @@ SceneColors darkSolids() {
   c.joint = rgbFromHex(0x7f9db4);
   c.wheel = rgbFromHex(0x3a3e42);
   c.head = rgbFromHex(0x8d959b);
-  c.map_points = rgbFromHex(0x8d8f86);
-  c.map_points_idle = rgbFromHex(0x55585a);
+  c.map_points = rgbFromHex(0x70736d);
+  c.map_points_idle = rgbFromHex(0x4a4d4f);
   c.suspected = rgbFromHex(0xe0525c);
   c.sensed = rgbFromHex(0xf0f3f5);
   c.planned = rgbFromHex(0x5fa8c8);

@@ -82,7 +82,7 @@ void paintPlaceNames(QPainter& painter, const SceneSnapshot& snapshot, const Orb
                     [&](const FireEstimate& fire) { return fire.place == place.name; });
     if (named_by_fire) continue;
     const auto p =
-        camera.project(place.p_map + Eigen::Vector3d(0, 0, 0.3), size.width(), size.height());
+        camera.project(place.p_map + Eigen::Vector3d(0, 0, 0.5), size.width(), size.height());
     if (!p) continue;
     const QString name = QString::fromStdString(place.name) +
                          (place.visited ? QStringLiteral(" · visited") : QString());

@@ -11,11 +11,12 @@
 namespace kiln::gui {
 namespace {
 
-constexpr double kBox_m = 0.4;       // acrylic box of a fire place (scenario.md section 3)
-constexpr double kRecess_m = 0.1;    // of the plate behind the box's face
+constexpr double kBox_m = 0.4;     // acrylic box of a fire place (scenario.md section 3)
+constexpr double kRecess_m = 0.1;  // of the plate behind the box's face
 constexpr double kGround_m = 0.02;
 constexpr double kLeastShown_m = 0.05;  // smaller uncertainties hide under the robot
-constexpr double kHalfLength_m = 0.95, kHalfWidth_m = 0.7;  // of the base (data sheet in hardware.md)
+constexpr double kHalfLength_m = 0.95,
+                 kHalfWidth_m = 0.7;  // of the base (data sheet in hardware.md)
 
 QColor qt(Rgb c, int alpha = 255) { return {c.r, c.g, c.b, alpha}; }
 
@@ -89,7 +90,7 @@ void paintChecks(const Sheet& s) {
     paintBox(s, check.X_map_configured);
     if (!check.X_map_sensed) continue;
     const bool off = check.verdict == PlaceVerdict::Misplaced;
-    s.pen(qt(off ? s.colors.caution : s.colors.sensed), off ? 2.5 : 1.5);
+    s.pen(off ? qt(s.colors.caution) : qt(s.colors.sensed, 150), off ? 2.5 : 1.2);
     paintBox(s, *check.X_map_sensed);
     s.line({check.X_map_configured.translation(), check.X_map_sensed->translation()});
   }

@@ -14,6 +14,7 @@
 namespace kiln::gui {
 namespace {
 constexpr int kPanelOffset_px = 8;
+constexpr double kPlaceDistance_m = 7.0;  // the picture is then about four metres high
 
 QString pointsText(const PointCloudPtr& cloud) {
   if (!cloud) return SceneTile::tr("no cloud");
@@ -64,7 +65,10 @@ SceneTile::SceneTile(const Ui& ui, StationModels& models, RobotGeometry geometry
   connect(canvas_, &SceneCanvas::groundPressed, &placer_, &PosePlacer::press);
   connect(canvas_, &SceneCanvas::groundDragged, &placer_, &PosePlacer::drag);
   connect(&placer_, &PosePlacer::changed, this, &SceneTile::watchPlacing);
-  connect(&nudge_, &PlaceNudge::changed, this, &SceneTile::takeIntent);
+  connect(place_panel_, &PlacePanel::refreshed, this, [this] {
+    watchPlace();
+    takeIntent();
+  });
   connect(chip_, &LocalizationChip::resized, this, &SceneTile::arrange);
   connect(place_panel_, &PlacePanel::resized, this, &SceneTile::arrange);
   connect(&models_, &StationModels::aged, this, [this] {
@@ -94,6 +98,20 @@ void SceneTile::takeIntent() {
     intent.nudge = nudge_.wish();
   }
   canvas_->setIntent(intent);
+}
+
+/// An open card is worth nothing when its place is out of the picture or under the card.
+void SceneTile::watchPlace() {
+  const QString now = place_panel_->isHidden() ? QString() : nudge_.selected();
+  if (now == looked_at_) return;
+  if (looked_at_.isEmpty()) before_placing_ = canvas_->camera().mode();
+  looked_at_ = now;
+  const FirePlaceInfo* place = nudge_.place(now);
+  if (place) {
+    canvas_->lookDownAt(place->p_map.head<2>(), kPlaceDistance_m, place_panel_->width() / 3);
+  } else {
+    canvas_->setCameraMode(before_placing_);
+  }
 }
 
 void SceneTile::watchPlacing() {
@@ -165,7 +183,7 @@ void SceneTile::refresh() {
   layers_->show(snapshot);
   const QString refusal = QString::fromStdString(state_.cloudRefusal());
   QString info = canvas_->usesOpenGl()
-                     ? tr("map · %1").arg(pointsText(snapshot.cloud))
+                     ? tr("live %1").arg(pointsText(snapshot.cloud))
                      : tr("top view, no OpenGL · %1").arg(pointsText(snapshot.cloud));
   setInfo(refusal.isEmpty() ? info : refusal);
 }

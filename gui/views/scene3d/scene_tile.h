@@ -40,6 +40,7 @@ class SceneTile : public Tile {
   void takeMap();
   void takeIntent();
   void watchPlacing();
+  void watchPlace();
   void arrange();
   void refreshPoseButton();
   void takeStatus();
@@ -62,6 +63,7 @@ class SceneTile : public Tile {
   QToolButton *pose_button_ = nullptr, *place_button_ = nullptr;
   OrbitCamera::Mode before_placing_ = OrbitCamera::Mode::Follow;
   bool placing_ = false;
+  QString looked_at_;  ///< the place that the camera was turned to; empty: none
 };
 
 }  // namespace kiln::gui

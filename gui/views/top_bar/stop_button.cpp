@@ -32,7 +32,7 @@ StopButton::StopButton(const Ui& ui, StopModel& stop, QWidget* parent)
 QString StopButton::caption() const {
   switch (stop_.stage()) {
     case StopStage::Unreachable:
-      return tr("NO LINK");
+      return stop_.recorded() ? tr("recording") : tr("NO LINK");
     case StopStage::Clear:
       return tr("software");
     case StopStage::Sent:

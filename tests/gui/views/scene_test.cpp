@@ -93,6 +93,76 @@ TEST(SceneState, IgnoresAPoseThatIsNoNumber) {
   EXPECT_FALSE(f.state.snapshot().robot_known);
 }
 
+TEST(SceneState, TheRobotAndItsScanStandOnTheSlope) {
+  Fixture f;
+  f.state.setStatus(statusAt(1.0, 2.0));
+  LocalizationStatus where;
+  where.X_map_base = toIsometry(Pose2{2.0, 0, 0});
+  where.X_map_base.translation().z() = -0.4;
+  where.X_map_base.linear() = Eigen::AngleAxisd(-0.07, Eigen::Vector3d::UnitY()).toRotationMatrix();
+  f.state.setLocalization(where);
+  EXPECT_TRUE(f.state.snapshot().robotPose().isApprox(where.X_map_base, 1e-9));
+  f.state.setStatus(statusAt(1.1, 2.1));  // the plane of the next status goes with the same slope
+  EXPECT_NEAR(f.state.snapshot().robotPose().translation().z(), -0.4, 1e-9);
+  f.state.setCloud(onePoint("base", 1.1));
+  EXPECT_LT(f.state.snapshot().X_map_cloud.translation().z(), -0.39);
+}
+
+TEST(SceneState, TheRobotsMemoryOfItsWayReplacesTheStations) {
+  Fixture f;
+  f.state.setStatus(statusAt(1.0, 5.0, 1));
+  f.state.setTrajectory({at(1.0), {{0, {{0, 0, 0}, {1, 0, 0}}}, {1, {{4, 0, 0}, {5, 0, 0}}}}});
+  ASSERT_EQ(f.state.snapshot().driven.size(), 2U);
+  f.state.setStatus(statusAt(1.2, 5.5, 1));  // goes on with the last leg
+  ASSERT_EQ(f.state.snapshot().driven.size(), 2U);
+  EXPECT_EQ(f.state.snapshot().driven.back().size(), 3U);
+  f.state.setStatus(statusAt(1.4, 0.0, 2));  // a reset begins another
+  EXPECT_EQ(f.state.snapshot().driven.size(), 3U);
+  f.state.restart();
+  EXPECT_TRUE(f.state.snapshot().driven.empty());
+}
+
+TEST(SceneState, KnowsThePartOfTheMapInUseWhicheverComesFirst) {
+  auto map = std::make_shared<MapLayer>();
+  map->submaps = {"outdoor", "indoor"};
+  LocalizationStatus where;
+  where.submap = "indoor";
+  Fixture early, late;
+  early.state.setMap(map);
+  early.state.setLocalization(where);
+  late.state.setLocalization(where);
+  late.state.setMap(map);
+  EXPECT_EQ(early.state.snapshot().submap, 1);
+  EXPECT_EQ(late.state.snapshot().submap, 1);
+  where.submap = "cellar";
+  late.state.setLocalization(where);
+  EXPECT_EQ(late.state.snapshot().submap, -1);
+}
+
+TEST(OrbitCamera, APixelOfTheGroundIsThePointThatIsDrawnThere) {
+  for (const OrbitCamera::Mode mode : {OrbitCamera::Mode::Top, OrbitCamera::Mode::Free}) {
+    OrbitCamera camera;
+    camera.reset({3.0, 1.0, 0.0});
+    camera.setMode(mode);
+    for (const Eigen::Vector2d& p : {Eigen::Vector2d(3.0, 1.0), {4.5, -0.5}, {2.2, 2.0}}) {
+      const auto pixel = camera.project({p.x(), p.y(), 0.0}, 800, 500);
+      ASSERT_TRUE(pixel.has_value());
+      const auto back = camera.groundPoint(*pixel, 800, 500);
+      ASSERT_TRUE(back.has_value());
+      EXPECT_LT((*back - p).norm(), 1e-6);
+    }
+  }
+}
+
+TEST(OrbitCamera, TheSkyIsNoGround) {
+  OrbitCamera camera;
+  camera.reset({0, 0, 0});
+  camera.setMode(OrbitCamera::Mode::Free);
+  for (int i = 0; i < 60; ++i) camera.orbit(0, -10, 500);  // down to the horizon
+  EXPECT_FALSE(camera.groundPoint({400, 0}, 800, 500).has_value());
+  EXPECT_FALSE(camera.groundPoint({400, 250}, 0, 0).has_value());
+}
+
 TEST(SceneState, LayersAgeAtTheirLimits) {
   Fixture f;
   const auto freshness = [&](double age_s) {
