@@ -30,7 +30,7 @@ struct PlaceCheck {
   std::optional<Eigen::Isometry3d> X_map_sensed;
   Eigen::Matrix3d covariance =
       Eigen::Matrix3d::Zero();  ///< of the sensed (x m, y m, yaw rad) in map
-  double offset_m = 0.0;        ///< sensed from configured, on the ground plane
+  double offset_m = 0.0;        ///< of the plate: sensed from configured, on the ground plane
   double yaw_offset_rad = 0.0;  ///< sensed minus configured
   double coverage = 0.0;        ///< share of the visible frame and table that points confirm, 0..1
   int points = 0;               ///< on the box and its table

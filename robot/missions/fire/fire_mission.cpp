@@ -1,5 +1,6 @@
 #include "robot/missions/fire/fire_mission.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -11,6 +12,17 @@
 #include "robot/world_model/checkpoint_writer.h"
 
 namespace kiln {
+namespace {
+
+/// States in which the arm is, or will be at the next step, near the place.
+bool worksAtPlace(const std::string& state) {
+  for (const char* working :
+       {"ArmSearch", "AimHose", "StartPump", "SpraySteady", "SprayPattern", "StopPump"})
+    if (state == working) return true;
+  return false;
+}
+
+}  // namespace
 
 WorldState initialWorld(const ArenaMap& arena) {
   WorldState world;
@@ -58,6 +70,11 @@ struct FireMission::Impl {
     last_save = context.devices.clock.now();
     if (writer)
       writer->write(encodeCheckpoint({last_save, fsm, context.devices.world.state()}), durable);
+  }
+
+  void placeMoved(std::size_t index) {
+    const FirePlace& place = context.world().places[index];
+    context.devices.move_place(index, place.p_plate_map, place.facing_rad);
   }
 
   /// A full disk costs the resume, not the mission.
@@ -143,7 +160,42 @@ Result<void> FireMission::resumeFrom(const std::string& path, Stamp now) {
                                           m.context.world().tank_l_est);
   auto restored = m.machine->restore(loaded->fsm, now);
   if (!restored) m.context.world() = std::move(before);
+  for (std::size_t i = 0; i < places; ++i) m.placeMoved(i);
   return restored;
+}
+
+Result<void> FireMission::nudgePlace(const std::string& name, const Pose2& correction) {
+  Impl& m = *impl_;
+  const auto& places = m.context.world().places;
+  const auto found = std::find_if(places.begin(), places.end(),
+                                  [&](const FirePlace& place) { return place.name == name; });
+  if (found == places.end())
+    return makeError(ErrorCode::InvalidInput, "there is no fire place '{}'", name);
+  const FsmStatus fsm = m.machine->status(m.context.devices.clock.now());
+  const bool current = &*found == m.context.devices.world.currentPlace();
+  if (current && fsm.running && !fsm.paused && worksAtPlace(fsm.state))
+    return makeError(ErrorCode::Refused, "the arm works before {} ({}); pause the mission first",
+                     name, fsm.state);
+  // From the front's vertical to the plate's.
+  const ArenaMap& arena = m.context.devices.arena;
+  const Eigen::Vector3d lever =
+      found->p_plate_map - arena.front(found->p_plate_map, found->facing_rad).translation();
+  const Eigen::Vector3d turned =
+      Eigen::AngleAxisd(correction.yaw_rad, Eigen::Vector3d::UnitZ()) * lever - lever;
+  const auto index = static_cast<std::size_t>(found - places.begin());
+  if (auto moved = m.context.devices.world.nudgePlace(
+          index, {correction.x_m + turned.x(), correction.y_m + turned.y(), correction.yaw_rad});
+      !moved)
+    return moved;
+  m.placeMoved(index);
+  logger("mission.fire")
+      ->warn("{} was nudged by {:.2f}, {:.2f} m and {:.1f} deg", name, correction.x_m,
+             correction.y_m, correction.yaw_rad * 180.0 / M_PI);
+  return {};
+}
+
+const std::optional<PlaceCheck>& FireMission::placeCheck() const {
+  return impl_->context.place_check;
 }
 
 std::vector<FirePlaceInfo> FireMission::places() const {

@@ -48,6 +48,13 @@ class FireMission {
   /// Waits until the newest checkpoint is on the disk; the destructor does so too.
   void flushCheckpoint();
 
+  /// The operator's correction of a place, as PlaceCheck::correction() says it or by hand: (x, y)
+  /// in map, yaw about the front's vertical. The mission looks at the place anew. Refused while the
+  /// arm works before it.
+  [[nodiscard]] Result<void> nudgePlace(const std::string& place, const Pose2& correction);
+  /// Newest comparison of a place as configured with the live cloud.
+  [[nodiscard]] const std::optional<PlaceCheck>& placeCheck() const;
+
   [[nodiscard]] std::vector<FirePlaceInfo> places() const;
   [[nodiscard]] std::vector<FireEstimate> fires()
       const;  ///< of each place, and the present sweep's
