@@ -158,6 +158,13 @@ struct DriveTo::Impl {
       return;
     }
     path.emplace(here, waypoints, path_config);
+    const auto leaves = [&](const Pose2& pose) {
+      return !inFence(pose, std::max(config.geofence_slack_m, -fence->room(here)));
+    };
+    if (std::any_of(path->samples().begin(), path->samples().end(), leaves)) {
+      fail("geofence", "the way between the way-points leaves the geofence", now);
+      return;
+    }
     std::vector<BoxConfig> boxes = arena.walls;
     boxes.insert(boxes.end(), arena.furniture.begin(), arena.furniture.end());
     for (BoxConfig& box : arena.fireFurniture()) boxes.push_back(std::move(box));

@@ -227,10 +227,65 @@ double secondTurn(std::span<const StillScan> scans) {
 
 }  // namespace
 
-Result<LidarCalibration> LidarCalibrator::calibrate(std::span<const StillScan> scans,
-                                                    const Eigen::Isometry3d& X_flange_lidar) const {
+namespace {
+
+void addResiduals(const LidarCalibrator::Config& config, std::vector<Patch>& patches,
+                  std::span<const StillScan> scans, const Eigen::Isometry3d& X_flange_lidar,
+                  Unknowns& unknowns, ceres::Problem& problem) {
+  for (Patch& patch : patches) {
+    for (const Measured* m : patch.points) {
+      const StillScan& scan = scans[static_cast<std::size_t>(m->posture)];
+      problem.AddResidualBlock(
+          new ceres::AutoDiffCostFunction<PointToPlane, 1, 6, 1, 3>(
+              new PointToPlane{*m, patch, scan.X_base_flange, X_flange_lidar, config.noise_m}),
+          new ceres::CauchyLoss(2.0), unknowns.mount.data(),
+          &unknowns.bias_m[static_cast<std::size_t>(m->ring)], patch.bend.data());
+    }
+  }
+  const double t = config.prior_m, r = config.prior_deg * kDeg;
+  problem.AddResidualBlock(
+      new ceres::AutoDiffCostFunction<Prior, 6, 6>(new Prior{{r, r, r, t, t, t}}), nullptr,
+      unknowns.mount.data());
+  for (double& bias : unknowns.bias_m)
+    problem.AddResidualBlock(
+        new ceres::AutoDiffCostFunction<BiasPrior, 1, 1>(new BiasPrior{config.bias_sigma_m}),
+        nullptr, &bias);
+}
+
+/// Planes are eliminated first: what is left is small and dense.
+Result<void> solve(std::vector<Patch>& patches, Unknowns& unknowns, ceres::Problem& problem) {
+  auto* order = new ceres::ParameterBlockOrdering;
+  for (Patch& patch : patches) order->AddElementToGroup(patch.bend.data(), 0);
+  order->AddElementToGroup(unknowns.mount.data(), 1);
+  for (double& bias : unknowns.bias_m) order->AddElementToGroup(&bias, 1);
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_SCHUR;
+  options.linear_solver_ordering.reset(order);
+  options.max_num_iterations = 30;
+  options.num_threads = 1;  // the same answer each time
+  options.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  if (summary.IsSolutionUsable()) return {};
+  return makeError(ErrorCode::Degenerate, "the LiDAR's mounting did not converge: {}",
+                   summary.BriefReport());
+}
+
+void setSigmas(ceres::Problem& problem, const double* mount, Extrinsics& out) {
+  ceres::Covariance::Options options;
+  options.algorithm_type = ceres::SPARSE_QR;
+  ceres::Covariance estimator(options);
+  const std::vector<std::pair<const double*, const double*>> wanted{{mount, mount}};
+  if (!estimator.Compute(wanted, &problem)) return;
+  Eigen::Matrix<double, 6, 6, Eigen::RowMajor> C;
+  estimator.GetCovarianceBlock(mount, mount, C.data());
+  out.sigma_rad = C.diagonal().head<3>().cwiseSqrt();
+  out.sigma_m = C.diagonal().tail<3>().cwiseSqrt();
+}
+
+Result<void> enoughScans(std::span<const StillScan> scans) {
   constexpr std::size_t kFewest = 6;
-  constexpr double kLeastTurn = 10.0 * kDeg, kLeastSpread = 0.05;
+  constexpr double kLeastTurn = 10.0 * kDeg;
   if (scans.size() < kFewest)
     return makeError(ErrorCode::Degenerate,
                      "{} scans are too few for the LiDAR's mounting; {} at least", scans.size(),
@@ -238,77 +293,43 @@ Result<LidarCalibration> LidarCalibrator::calibrate(std::span<const StillScan> s
   if (secondTurn(scans) < kLeastTurn)
     return makeError(ErrorCode::Degenerate,
                      "the flange was turned about one axis only; the LiDAR's mounting needs two");
+  return {};
+}
+
+}  // namespace
+
+Result<LidarCalibration> LidarCalibrator::calibrate(std::span<const StillScan> scans,
+                                                    const Eigen::Isometry3d& X_flange_lidar) const {
+  constexpr std::size_t kFewestPatches = 12;
+  constexpr double kLeastSpread = 0.05;
+  if (auto enough = enoughScans(scans); !enough) return tl::make_unexpected(enough.error());
   const std::vector<Measured> points = gather(scans, config_.max_range_m, config_.thin_m);
   Unknowns unknowns;
   LidarCalibration out;
+  Extrinsics& found = out.flange_lidar;
   std::vector<Patch> patches;
-  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Identity();
   for (int round = 0; round < config_.rounds; ++round) {
     const double share =
         std::min(1.0, static_cast<double>(round) / std::max(1, config_.rounds - 2));
     patches = findPatches(config_, points, scans, X_flange_lidar, unknowns,
                           config_.flat_m * (3.0 - 2.0 * share));
-    if (patches.size() < 12 || spreadOfNormals(patches) < kLeastSpread)
+    if (patches.size() < kFewestPatches || spreadOfNormals(patches) < kLeastSpread)
       return makeError(ErrorCode::Degenerate,
                        "{} flat pieces in too few directions; the LiDAR's mounting needs floor and "
                        "walls in view",
                        patches.size());
     ceres::Problem problem;
-    auto* order = new ceres::ParameterBlockOrdering;
-    for (Patch& patch : patches) {
-      for (const Measured* m : patch.points) {
-        const StillScan& scan = scans[static_cast<std::size_t>(m->posture)];
-        problem.AddResidualBlock(
-            new ceres::AutoDiffCostFunction<PointToPlane, 1, 6, 1, 3>(
-                new PointToPlane{*m, patch, scan.X_base_flange, X_flange_lidar, config_.noise_m}),
-            new ceres::CauchyLoss(2.0), unknowns.mount.data(),
-            &unknowns.bias_m[static_cast<std::size_t>(m->ring)], patch.bend.data());
-      }
-      order->AddElementToGroup(patch.bend.data(), 0);
-    }
-    const double t = config_.prior_m, r = config_.prior_deg * kDeg;
-    problem.AddResidualBlock(
-        new ceres::AutoDiffCostFunction<Prior, 6, 6>(new Prior{{r, r, r, t, t, t}}), nullptr,
-        unknowns.mount.data());
-    order->AddElementToGroup(unknowns.mount.data(), 1);
-    for (double& bias : unknowns.bias_m) {
-      problem.AddResidualBlock(
-          new ceres::AutoDiffCostFunction<BiasPrior, 1, 1>(new BiasPrior{config_.bias_sigma_m}),
-          nullptr, &bias);
-      order->AddElementToGroup(&bias, 1);
-    }
-    ceres::Solver::Options options;
-    options.linear_solver_type = ceres::DENSE_SCHUR;
-    options.linear_solver_ordering.reset(order);
-    options.max_num_iterations = 30;
-    options.num_threads = 1;  // the same answer each time
-    options.logging_type = ceres::SILENT;
-    ceres::Solver::Summary summary;
-    ceres::Solve(options, &problem, &summary);
-    if (!summary.IsSolutionUsable())
-      return makeError(ErrorCode::Degenerate, "the LiDAR's mounting did not converge: {}",
-                       summary.BriefReport());
-    if (round + 1 < config_.rounds) continue;
-    ceres::Covariance::Options covariance_options;
-    covariance_options.algorithm_type = ceres::SPARSE_QR;
-    ceres::Covariance estimator(covariance_options);
-    const double* block = unknowns.mount.data();
-    const std::vector<std::pair<const double*, const double*>> wanted{{block, block}};
-    if (estimator.Compute(wanted, &problem)) {
-      std::array<double, 36> values{};
-      estimator.GetCovarianceBlock(block, block, values.data());
-      covariance = Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(values.data());
-    }
+    addResiduals(config_, patches, scans, X_flange_lidar, unknowns, problem);
+    if (auto solved = solve(patches, unknowns, problem); !solved)
+      return tl::make_unexpected(solved.error());
+    if (round + 1 == config_.rounds) setSigmas(problem, unknowns.mount.data(), found);
   }
-  out.flange_lidar.X_parent_sensor = X_flange_lidar * poseOf(unknowns.mount);
-  out.flange_lidar.sigma_rad = covariance.diagonal().head<3>().cwiseSqrt();
-  out.flange_lidar.sigma_m = covariance.diagonal().tail<3>().cwiseSqrt();
-  out.flange_lidar.rms_before = rmsOf(patches, scans, X_flange_lidar, {});
-  out.flange_lidar.rms_after = rmsOf(patches, scans, X_flange_lidar, unknowns);
-  out.flange_lidar.unit = "m";
-  out.flange_lidar.views = static_cast<int>(scans.size());
-  for (const Patch& patch : patches)
-    out.flange_lidar.measurements += static_cast<int>(patch.points.size());
+  found.X_parent_sensor = X_flange_lidar * poseOf(unknowns.mount);
+  found.rms_before = rmsOf(patches, scans, X_flange_lidar, {});
+  found.rms_after = rmsOf(patches, scans, X_flange_lidar, unknowns);
+  found.unit = "m";
+  found.views = static_cast<int>(scans.size());
+  for (const Patch& patch : patches) found.measurements += static_cast<int>(patch.points.size());
   out.range_bias_m = unknowns.bias_m;
   out.patches = static_cast<int>(patches.size());
   return out;
