@@ -37,9 +37,10 @@ struct PlaceCheck {
   PlaceVerdict verdict = PlaceVerdict::Unseen;
   std::string reason;  ///< one sentence for the operator
 
-  /// The nudge that would move the configured place onto the sensed one: (dx, dy) in map, and yaw
-  /// about the plate's or opening's vertical. Zero when nothing was sensed.
-  [[nodiscard]] Pose2 correction() const;
+  /// The nudge (NudgePlace) that would move the configured place onto the sensed one: (dx, dy) in
+  /// map, yaw about the plate's vertical. Zero when nothing was sensed.
+  /// @param recess_m  of the plate behind the opening.
+  [[nodiscard]] Pose2 correction(double recess_m = 0.10) const;
 };
 
 }  // namespace kiln

@@ -1,5 +1,7 @@
 #include "robot/app/mission_report.h"
 
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
 #include "common/core/atomic_file.h"
@@ -56,8 +58,10 @@ void MissionReport::addTrack(const TrackRecord& record) {
 }
 
 void MissionReport::addPlaceCheck(const PlaceCheck& check) {
-  if (checks_.empty() || check.stamp != checks_.back().stamp || check.place != checks_.back().place)
-    checks_.push_back(check);
+  const auto same = [&](const PlaceCheck& known) {
+    return known.stamp == check.stamp && known.place == check.place;
+  };
+  if (std::none_of(checks_.begin(), checks_.end(), same)) checks_.push_back(check);
 }
 
 std::string MissionReport::toJson(Stamp now) const {

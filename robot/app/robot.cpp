@@ -219,9 +219,9 @@ void Robot::Impl::watchMotion(Stamp now) {
     motion_watch.restart();
     return;
   }
-  const std::string wrong = motion_watch.step(
-      {tracking.stamp, tracking.commanded, tracking.measured, tracking.X_odom_base,
-       located ? std::optional(pose()) : std::nullopt});
+  const std::string wrong =
+      motion_watch.step({tracking.stamp, tracking.commanded, tracking.measured,
+                         tracking.X_odom_base, located ? std::optional(pose()) : std::nullopt});
   if (!wrong.empty()) stop.set("motion watch: " + wrong, now);
 }
 
@@ -270,7 +270,7 @@ void Robot::Impl::keepBooks(Stamp now) {
     report = MissionReport(options.mission, now);
   }
   report.observe(fsm);
-  if (mission.placeCheck()) report.addPlaceCheck(*mission.placeCheck());
+  for (const PlaceCheck& check : mission.placeChecks()) report.addPlaceCheck(check);
   report.setTotals(world.state().sprayed_l_est, world.state().resets);
   const BaseTracking tracking = base.tracking();
   report.addTrack({tracked.stamp, tracked.X_map_base, tracking.X_odom_base,

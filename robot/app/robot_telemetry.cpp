@@ -45,9 +45,7 @@ void Robot::Impl::raiseAlarms(Stamp now) {
   alarms.set("base.fence", !fence.empty(), AlarmLevel::Advisory, "Base limited by the " + fence,
              "drive back into the arena", now);
   const bool refused = fsm.running && fsm.state == "PlaceRefused";
-  alarms.set("place.refused", refused, AlarmLevel::Caution,
-             refused && mission.placeCheck() ? mission.placeCheck()->reason
-                                             : "The fire place was not seen by the LiDAR",
+  alarms.set("place.refused", refused, AlarmLevel::Caution, fsm.display_text,
              "compare configured and sensed outline, nudge the place or force Arm search", now);
   const auto mission_alarms = mission.alarms();
   storage_ok = mission_alarms.empty();
@@ -171,6 +169,7 @@ Scene Robot::Impl::scene(Stamp now) const {
   scene.planned = {now, drive.waypoints(), drive.nextIndex()};
   scene.jet = mission.jetPreview(now);
   scene.arena = sceneBoxes(arena);
+  scene.place_checks = mission.placeChecks();
   return scene;
 }
 

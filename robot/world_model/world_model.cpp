@@ -47,6 +47,8 @@ Result<void> WorldModel::nudgePlace(std::size_t index, const Pose2& correction) 
   place.estimate.reset();
   place.visited = place.extinguished;
   ++place.nudges;
+  place.nudge = {place.nudge.x_m + correction.x_m, place.nudge.y_m + correction.y_m,
+                 wrapAngle(place.nudge.yaw_rad + correction.yaw_rad)};
   return {};
 }
 

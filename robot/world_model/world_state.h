@@ -17,6 +17,7 @@ struct FirePlace {
   Eigen::Vector3d p_plate_map = Eigen::Vector3d::Zero();
   double facing_rad = 0.0;    ///< yaw of the opening's outward normal, likewise
   int nudges = 0;             ///< by the operator, since the mission began
+  Pose2 nudge;                ///< what they add up to: (x, y) in map, yaw about the plate
   bool visited = false;       ///< done with it in this round
   bool extinguished = false;  ///< all its water was delivered (estimated)
   std::optional<FireEstimate> estimate;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -60,9 +61,10 @@ class FireContext {
     }
   };
   std::optional<Aim> aim;
-  std::optional<PlaceCheck> place_check;  ///< newest, of the place that was looked at last
-  std::optional<Stamp> pumps_idle_since;  ///< while they should run
-  double sweep_started_s = 0.0;           ///< mission time at which the present sweep began
+  std::optional<PlaceCheck> place_check;           ///< of the present look
+  std::map<std::string, PlaceCheck> place_checks;  ///< newest of each place
+  std::optional<Stamp> pumps_idle_since;           ///< while they should run
+  double sweep_started_s = 0.0;  ///< mission time at which the present sweep began
 
   [[nodiscard]] WorldState& world() const { return devices.world.edit(); }
   /// @pre a place is selected.

@@ -164,7 +164,7 @@ Result<void> FireMission::resumeFrom(const std::string& path, Stamp now) {
   return restored;
 }
 
-Result<void> FireMission::nudgePlace(const std::string& name, const Pose2& correction) {
+Result<void> FireMission::nudgePlace(const std::string& name, const Pose2& by) {
   Impl& m = *impl_;
   const auto& places = m.context.world().places;
   const auto found = std::find_if(places.begin(), places.end(),
@@ -176,32 +176,42 @@ Result<void> FireMission::nudgePlace(const std::string& name, const Pose2& corre
   if (current && fsm.running && !fsm.paused && worksAtPlace(fsm.state))
     return makeError(ErrorCode::Refused, "the arm works before {} ({}); pause the mission first",
                      name, fsm.state);
-  // From the front's vertical to the plate's.
-  const ArenaMap& arena = m.context.devices.arena;
-  const Eigen::Vector3d lever =
-      found->p_plate_map - arena.front(found->p_plate_map, found->facing_rad).translation();
-  const Eigen::Vector3d turned =
-      Eigen::AngleAxisd(correction.yaw_rad, Eigen::Vector3d::UnitZ()) * lever - lever;
   const auto index = static_cast<std::size_t>(found - places.begin());
-  if (auto moved = m.context.devices.world.nudgePlace(
-          index, {correction.x_m + turned.x(), correction.y_m + turned.y(), correction.yaw_rad});
-      !moved)
-    return moved;
+  if (auto moved = m.context.devices.world.nudgePlace(index, by); !moved) return moved;
   m.placeMoved(index);
+  if (const auto check = m.context.place_checks.find(name); check != m.context.place_checks.end())
+    check->second.X_map_configured =
+        m.context.devices.arena.front(places[index].p_plate_map, places[index].facing_rad);
   logger("mission.fire")
-      ->warn("{} was nudged by {:.2f}, {:.2f} m and {:.1f} deg", name, correction.x_m,
-             correction.y_m, correction.yaw_rad * 180.0 / M_PI);
+      ->warn("{} was nudged by {:.2f}, {:.2f} m and {:.1f} deg", name, by.x_m, by.y_m,
+             by.yaw_rad * 180.0 / M_PI);
   return {};
 }
 
-const std::optional<PlaceCheck>& FireMission::placeCheck() const {
-  return impl_->context.place_check;
+Result<void> FireMission::continueDespite(const std::string& subject,
+                                          const std::string& operator_name, Stamp now) {
+  Impl& m = *impl_;
+  const FsmStatus fsm = m.machine->status(now);
+  const FirePlace* place = m.context.devices.world.currentPlace();
+  if (fsm.state != "PlaceRefused" || !place || place->name != subject)
+    return makeError(ErrorCode::Refused, "no check objects to '{}' now", subject);
+  const ChangeStateResult changed =
+      m.machine->changeState({fsm.state, fsm.step, "ArmSearch"}, operator_name, now);
+  if (changed.outcome != ChangeStateOutcome::Ok)
+    return makeError(ErrorCode::Refused, "{}", changed.reason);
+  return {};
+}
+
+std::vector<PlaceCheck> FireMission::placeChecks() const {
+  std::vector<PlaceCheck> out;
+  for (const auto& [name, check] : impl_->context.place_checks) out.push_back(check);
+  return out;
 }
 
 std::vector<FirePlaceInfo> FireMission::places() const {
   std::vector<FirePlaceInfo> out;
   for (const FirePlace& place : impl_->context.world().places)
-    out.push_back({place.name, place.p_plate_map, place.facing_rad, place.visited});
+    out.push_back({place.name, place.p_plate_map, place.facing_rad, place.visited, place.nudge});
   return out;
 }
 

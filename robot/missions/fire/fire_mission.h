@@ -48,12 +48,15 @@ class FireMission {
   /// Waits until the newest checkpoint is on the disk; the destructor does so too.
   void flushCheckpoint();
 
-  /// The operator's correction of a place, as PlaceCheck::correction() says it or by hand: (x, y)
-  /// in map, yaw about the front's vertical. The mission looks at the place anew. Refused while the
-  /// arm works before it.
-  [[nodiscard]] Result<void> nudgePlace(const std::string& place, const Pose2& correction);
-  /// Newest comparison of a place as configured with the live cloud.
-  [[nodiscard]] const std::optional<PlaceCheck>& placeCheck() const;
+  /// The operator's correction of a place (NudgePlace; PlaceCheck::correction() proposes one). The
+  /// mission looks at the place anew. Refused while the arm works before it.
+  [[nodiscard]] Result<void> nudgePlace(const std::string& place, const Pose2& by);
+  /// The operator takes the responsibility: on from "Place refused" as configured. `subject` is the
+  /// place's name.
+  [[nodiscard]] Result<void> continueDespite(const std::string& subject,
+                                             const std::string& operator_name, Stamp now);
+  /// Newest comparison of each place, as configured and nudged, with the live cloud.
+  [[nodiscard]] std::vector<PlaceCheck> placeChecks() const;
 
   [[nodiscard]] std::vector<FirePlaceInfo> places() const;
   [[nodiscard]] std::vector<FireEstimate> fires()

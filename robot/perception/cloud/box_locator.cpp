@@ -221,12 +221,10 @@ double BoxLocator::coverage(const std::vector<Sample>& samples, const Eigen::Vec
 }
 
 void BoxLocator::judge(PlaceCheck& check) const {
-  const Eigen::Vector3d p_front_plate(-config_.sizes.recess, 0, 0);
-  const Eigen::Vector3d off =
-      *check.X_map_sensed * p_front_plate - check.X_map_configured * p_front_plate;
-  check.offset_m = off.head<2>().norm();
-  check.yaw_offset_rad = check.correction().yaw_rad;
-  const double axis = off.head<2>().cwiseAbs().maxCoeff();
+  const Pose2 off = check.correction(config_.sizes.recess);
+  check.offset_m = std::hypot(off.x_m, off.y_m);
+  check.yaw_offset_rad = off.yaw_rad;
+  const double axis = std::max(std::abs(off.x_m), std::abs(off.y_m));
   const bool shifted = check.offset_m > config_.max_offset_m || axis > config_.max_axis_m;
   const bool turned = std::abs(check.yaw_offset_rad) > config_.max_yaw_deg * kDeg;
   check.verdict = shifted || turned ? PlaceVerdict::Misplaced : PlaceVerdict::Fits;

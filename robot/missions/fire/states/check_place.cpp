@@ -26,7 +26,10 @@ Transition CheckPlace::execute() {
   const std::optional<PlaceCheck> seen =
       asked_ ? c.devices.surroundings.placeCheck() : std::nullopt;
   const bool late = asked_ && toSeconds(now() - asked_at_) > config.look_timeout_s;
-  if (seen) c.place_check = seen;
+  if (seen) {
+    c.place_check = seen;
+    c.place_checks[seen->place] = *seen;
+  }
   const bool fits = c.place_check && c.place_check->verdict == PlaceVerdict::Fits;
   guard("Place as configured", fits,
         c.place_check ? c.place_check->reason : "looking at " + c.place().name,

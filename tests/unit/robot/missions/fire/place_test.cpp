@@ -11,8 +11,8 @@ TEST(CheckPlace, TheArmUnfoldsOnlyBeforeAPlaceThatStandsWhereItShould) {
   ASSERT_TRUE(rig.runToState("PlaceRefused")) << rig.state();
   EXPECT_EQ(rig.countVisits("ArmSearch"), 0);
   EXPECT_EQ(rig.surroundings.asked, rig.config.check.max_looks) << "looks again before it refuses";
-  ASSERT_TRUE(rig.mission->placeCheck().has_value());
-  EXPECT_EQ(rig.mission->placeCheck()->verdict, PlaceVerdict::Misplaced);
+  ASSERT_EQ(rig.mission->placeChecks().size(), 1u);
+  EXPECT_EQ(rig.mission->placeChecks()[0].verdict, PlaceVerdict::Misplaced);
   rig.run(5.0);
   EXPECT_EQ(rig.state(), "PlaceRefused") << "waits for the operator";
   EXPECT_THAT(rig.status().display_text, testing::HasSubstr("place 1 stands elsewhere"));
@@ -26,7 +26,7 @@ TEST(CheckPlace, ANudgeIsCheckedAndTheMissionGoesOnWithThePlaceWhereItIs) {
       rig.arena.front(rig.place(0).p_plate_map, rig.place(0).facing_rad);
   const Pose2 work_before = rig.arena.fire_places[0].work_pose.pose();
   ASSERT_TRUE(rig.runToState("PlaceRefused")) << rig.state();
-  const Pose2 correction = rig.mission->placeCheck()->correction();
+  const Pose2 correction = rig.mission->placeChecks()[0].correction();
   ASSERT_TRUE(rig.mission->nudgePlace("place 1", correction).has_value());
   const Eigen::Isometry3d after =
       rig.arena.front(rig.place(0).p_plate_map, rig.place(0).facing_rad);
@@ -34,6 +34,8 @@ TEST(CheckPlace, ANudgeIsCheckedAndTheMissionGoesOnWithThePlaceWhereItIs) {
               0.0, 1e-9);
   EXPECT_NEAR(wrapAngle(projectToGround(after).yaw_rad - projectToGround(before).yaw_rad), 0.05,
               1e-9);
+  EXPECT_NEAR(rig.mission->placeChecks()[0].correction().x_m, 0.0, 1e-9) << "shown where it is now";
+  EXPECT_NEAR(rig.mission->places()[0].nudge.yaw_rad, 0.05, 1e-12);
   // The robot works from the same pose relative to the place, and plans with the moved box.
   const Pose2 seen_before = inverse(projectToGround(before)) * work_before;
   const Pose2 seen_after =
@@ -60,7 +62,9 @@ TEST(CheckPlace, TheOperatorMayGoOnInSpiteOfIt) {
   FireRig rig;
   rig.surroundings.misplaced = {0.2, 0.0, 0.0};
   ASSERT_TRUE(rig.runToState("PlaceRefused")) << rig.state();
-  EXPECT_EQ(rig.force("ArmSearch").outcome, ChangeStateOutcome::Ok);
+  EXPECT_EQ(rig.mission->continueDespite("place 2", "Ada", rig.clock.now()).error().code,
+            ErrorCode::Refused);
+  EXPECT_TRUE(rig.mission->continueDespite("place 1", "Ada", rig.clock.now()).has_value());
   rig.run(0.1);
   EXPECT_EQ(rig.state(), "ArmSearch");
 }
