@@ -158,8 +158,8 @@ struct DriveTo::Impl {
       return;
     }
     path.emplace(here, waypoints, path_config);
-    const auto leaves = [&](const Pose2& pose) {
-      return !inFence(pose, std::max(config.geofence_slack_m, -fence->room(here)));
+    const auto leaves = [&](const Pose2& on_the_way) {
+      return !inFence(on_the_way, std::max(config.geofence_slack_m, -fence->room(here)));
     };
     if (std::any_of(path->samples().begin(), path->samples().end(), leaves)) {
       fail("geofence", "the way between the way-points leaves the geofence", now);
