@@ -14,9 +14,11 @@ std::string_view toString(PlaceVerdict verdict) {
   return "?";
 }
 
-Pose2 PlaceCheck::correction() const {
+Pose2 PlaceCheck::correction(double recess_m) const {
   if (!X_map_sensed) return {};
-  const Pose2 from = projectToGround(X_map_configured), to = projectToGround(*X_map_sensed);
+  const Pose2 X_front_plate{-recess_m, 0.0, 0.0};
+  const Pose2 from = projectToGround(X_map_configured) * X_front_plate,
+              to = projectToGround(*X_map_sensed) * X_front_plate;
   return {to.x_m - from.x_m, to.y_m - from.y_m, wrapAngle(to.yaw_rad - from.yaw_rad)};
 }
 

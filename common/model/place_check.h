@@ -30,16 +30,17 @@ struct PlaceCheck {
   std::optional<Eigen::Isometry3d> X_map_sensed;
   Eigen::Matrix3d covariance =
       Eigen::Matrix3d::Zero();  ///< of the sensed (x m, y m, yaw rad) in map
-  double offset_m = 0.0;        ///< sensed from configured, on the ground plane
+  double offset_m = 0.0;        ///< of the plate: sensed from configured, on the ground plane
   double yaw_offset_rad = 0.0;  ///< sensed minus configured
   double coverage = 0.0;        ///< share of the visible frame and table that points confirm, 0..1
   int points = 0;               ///< on the box and its table
   PlaceVerdict verdict = PlaceVerdict::Unseen;
   std::string reason;  ///< one sentence for the operator
 
-  /// The nudge that would move the configured place onto the sensed one: (dx, dy) in map, and yaw
-  /// about the plate's or opening's vertical. Zero when nothing was sensed.
-  [[nodiscard]] Pose2 correction() const;
+  /// The nudge (NudgePlace) that would move the configured place onto the sensed one: (dx, dy) in
+  /// map, yaw about the plate's vertical. Zero when nothing was sensed.
+  /// @param recess_m  of the plate behind the opening.
+  [[nodiscard]] Pose2 correction(double recess_m = 0.10) const;
 };
 
 }  // namespace kiln

@@ -46,6 +46,9 @@ struct RobotGeometry {
                                  0, 0};  ///< arm folded above the deck, for driving through doors
   std::vector<double> q_drive_deg{0, 0, 0, 0, 0, 0};  ///< LiDAR upright and clear, for driving
   UrKinematics arm = UrKinematics::ur10e();           ///< not in the file
+  /// Measured minus true range of each laser, by ring; from a calibration, not in the file. Empty:
+  /// none known.
+  std::vector<double> lidar_range_bias_m;
 
   void visit(ConfigArchive& a);
   [[nodiscard]] static Vector6d radians(const std::vector<double>& q_deg);

@@ -77,6 +77,10 @@ void addOptions(CLI::App& app, Arguments& a) {
   app.add_option("--listen", a.listen,
                  "where stations connect: tcp://127.0.0.1:PORT or ipc:///DIR/PREFIX")
       ->capture_default_str();
+  app.add_option("--calibration", a.robot.calibration,
+                 "mounting of the sensors, from kiln-eval calibrate (default: calibration.yaml in "
+                 "the state folder, if there is one)")
+      ->check(CLI::ExistingFile);
   app.add_option("--config", a.config, "robot config (default: resources/config/robot.yaml)");
   app.add_flag("--print-config", a.print_config,
                "print the effective configuration as YAML and end");

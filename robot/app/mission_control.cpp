@@ -116,6 +116,18 @@ CommandAck MissionControl::executeDiscrete(const Command& command, Stamp now) {
                pose->X_map_base.x_m, pose->X_map_base.y_m, pose->X_map_base.yaw_rad * 180.0 / M_PI);
     return done(command);
   }
+  if (const auto* nudge = std::get_if<NudgePlace>(&body)) {
+    const auto moved = parts_.mission.nudgePlace(nudge->place, nudge->by);
+    return moved ? done(command)
+                 : answer(command, AckOutcome::Refused, "nudge", moved.error().message);
+  }
+  if (const auto* despite = std::get_if<ContinueDespite>(&body)) {
+    const auto on = parts_.mission.continueDespite(despite->subject, command.operator_name, now);
+    if (!on) return answer(command, AckOutcome::Refused, "nothing_objects", on.error().message);
+    logger("mission")->warn("{} goes on despite the check of {}", command.operator_name,
+                            despite->subject);
+    return done(command);
+  }
   if (const auto* alarm = std::get_if<AcknowledgeAlarm>(&body)) {
     if (parts_.alarms.acknowledge(alarm->id)) return done(command);
     return answer(command, AckOutcome::Refused, "no_such_alarm",

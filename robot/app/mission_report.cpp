@@ -1,5 +1,7 @@
 #include "robot/app/mission_report.h"
 
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
 #include "common/core/atomic_file.h"
@@ -55,6 +57,13 @@ void MissionReport::addTrack(const TrackRecord& record) {
   track_resets_.push_back(resets_);
 }
 
+void MissionReport::addPlaceCheck(const PlaceCheck& check) {
+  const auto same = [&](const PlaceCheck& known) {
+    return known.stamp == check.stamp && known.place == check.place;
+  };
+  if (std::none_of(checks_.begin(), checks_.end(), same)) checks_.push_back(check);
+}
+
 std::string MissionReport::toJson(Stamp now) const {
   json states = json::array();
   for (const FsmHistoryEntry& entry : states_) {
@@ -82,6 +91,21 @@ std::string MissionReport::toJson(Stamp now) const {
                      r.X_odom_base.x_m, r.X_odom_base.y_m, r.X_odom_base.yaw_rad, r.located ? 1 : 0,
                      r.indoor ? 1 : 0, track_resets_[i]});
   }
+  json checks = json::array();
+  for (const PlaceCheck& check : checks_) {
+    json entry{{"t", toSeconds(check.stamp)},
+               {"place", check.place},
+               {"verdict", toString(check.verdict)},
+               {"offset_m", check.offset_m},
+               {"yaw_offset_rad", check.yaw_offset_rad},
+               {"coverage", check.coverage},
+               {"points", check.points}};
+    if (check.X_map_sensed) {
+      const Pose2 sensed = projectToGround(*check.X_map_sensed);
+      entry["sensed"] = {sensed.x_m, sensed.y_m, sensed.yaw_rad};
+    }
+    checks.push_back(entry);
+  }
   const std::string outcome = !last_.terminal ? "unfinished" : last_.success ? "success" : "failed";
   const json report{{"mission", mission_},
                     {"version", KILN_VERSION},
@@ -95,7 +119,8 @@ std::string MissionReport::toJson(Stamp now) const {
                     {"track_columns",
                      {"t_s", "x_m", "y_m", "yaw_rad", "odom_x_m", "odom_y_m", "odom_yaw_rad",
                       "located", "indoor", "resets"}},
-                    {"track", track}};
+                    {"track", track},
+                    {"place_checks", checks}};
   return report.dump(2) + "\n";
 }
 

@@ -7,6 +7,7 @@
 #include "common/geom/pose.h"
 #include "common/model/fire.h"
 #include "common/model/fsm.h"
+#include "common/model/place_check.h"
 
 namespace kiln {
 
@@ -34,6 +35,8 @@ class MissionReport {
     bool indoor = false;  ///< map in use
   };
   void addTrack(const TrackRecord& record);
+  /// Configured against sensed; each answer once.
+  void addPlaceCheck(const PlaceCheck& check);
   void setTotals(double litres_est, int resets) {
     litres_est_ = litres_est;
     resets_ = resets;
@@ -49,6 +52,7 @@ class MissionReport {
   std::vector<HeatRecord> heat_;
   std::vector<TrackRecord> track_;
   std::vector<int> track_resets_;  ///< of each record
+  std::vector<PlaceCheck> checks_;
   FsmStatus last_;
   double litres_est_ = 0.0;
   int resets_ = 0;

@@ -3,13 +3,14 @@
 #include <utility>
 
 #include "common/core/clock.h"
+#include "robot/perception/cloud/range_bias.h"
 #include "robot/perception/cloud/undistort.h"
 
 namespace kiln {
 namespace {
 
 constexpr double kHalfScan_s = 0.05;
-constexpr int kTrackSamples = 11;  // every 10 ms of a revolution at 10 Hz
+constexpr int kTrackSamples = 26;  // every 4 ms of a revolution at 10 Hz: joints come each 8 ms
 
 /// Joint angles over the scan, and the LiDAR's pose in the base frame of the scan's first point.
 struct ScanMotion {
@@ -49,7 +50,7 @@ void PerceptionJobs::Config::visit(ConfigArchive& a) {
 PerceptionJobs::PerceptionJobs(Config config, Executor& executor, const RobotGeometry& robot,
                                const StateHistory& history, const SelfFilter& self_filter,
                                const ScanLocator& locator, HeatDetector& detector,
-                               double heat_latency_s)
+                               double heat_latency_s, const ObstacleMemory::Config& obstacles)
     : config_(config),
       executor_(executor),
       robot_(robot),
@@ -57,7 +58,8 @@ PerceptionJobs::PerceptionJobs(Config config, Executor& executor, const RobotGeo
       self_filter_(self_filter),
       locator_(locator),
       detector_(detector),
-      heat_latency_(fromSeconds(heat_latency_s)) {}
+      heat_latency_(fromSeconds(heat_latency_s)),
+      obstacles_(obstacles) {}
 
 void PerceptionJobs::onScan(PointCloudPtr scan) { scans_.put(std::move(scan)); }
 
@@ -90,17 +92,19 @@ PerceptionJobs::ScanResult PerceptionJobs::processScan(
   result.prior = prior.value_or(AlignmentPrior{});
   const ScanMotion motion = motionDuring(scan, robot_, history_);
   auto filtered = self_filter_.filter(scan, motion.arm);
+  correctRanges(filtered.cloud, robot_.lidar_range_bias_m);
   if (motion.X_base_lidar.empty()) {  // no robot attached: show the scan as it came
     result.cloud = std::make_shared<PointCloud>(std::move(filtered.cloud));
     return result;
   }
   result.cloud =
       std::make_shared<PointCloud>(undistort(filtered.cloud, motion.X_base_lidar, "base"));
+  const Eigen::Isometry3d X_base_lidar = motion.X_base_lidar.at(scan.stamp);
+  result.obstacles = ObstacleMemory::observe(obstacles_, *result.cloud, X_base_lidar);
   if (prior) {
-    const Eigen::Vector3d p_base_lidar = motion.X_base_lidar.at(scan.stamp).translation();
     const SteadyClock wall;
     const Stamp begin = wall.now();
-    result.match = locator_.locate(*result.cloud, p_base_lidar, *prior);
+    result.match = locator_.locate(*result.cloud, X_base_lidar.translation(), *prior);
     result.locate_s = toSeconds(wall.now() - begin);
   }
   return result;

@@ -12,6 +12,7 @@
 #include "robot/app/state_history.h"
 #include "robot/localization/localizer.h"
 #include "robot/localization/scan_locator.h"
+#include "robot/perception/cloud/obstacle_memory.h"
 #include "robot/perception/cloud/pose_track.h"
 #include "robot/perception/cloud/self_filter.h"
 #include "robot/perception/thermal/heat_detector.h"
@@ -34,6 +35,8 @@ class PerceptionJobs {
     AlignmentPrior prior;
     std::optional<Result<ScanMatch>> match;  ///< nullopt: not tried this time
     double locate_s = 0.0;                   ///< wall time of it, in lockstep too
+    /// Obstacles in the scan; nullopt when the robot's motion during the scan is not known.
+    std::optional<ObstacleScan> obstacles;
   };
   struct HeatResult {
     ThermalImagePtr image;
@@ -41,7 +44,8 @@ class PerceptionJobs {
   };
   PerceptionJobs(Config config, Executor& executor, const RobotGeometry& robot,
                  const StateHistory& history, const SelfFilter& self_filter,
-                 const ScanLocator& locator, HeatDetector& detector, double heat_latency_s);
+                 const ScanLocator& locator, HeatDetector& detector, double heat_latency_s,
+                 const ObstacleMemory::Config& obstacles);
 
   void onScan(PointCloudPtr scan);        ///< any thread
   void onThermal(ThermalImagePtr image);  ///< any thread
@@ -68,6 +72,7 @@ class PerceptionJobs {
   const ScanLocator& locator_;
   HeatDetector& detector_;
   Duration heat_latency_;
+  ObstacleMemory::Config obstacles_;
   LatestValue<PointCloudPtr> scans_;
   BoundedQueue<ThermalImagePtr> images_{4, DropPolicy::Oldest};
   BoundedQueue<ScanResult> scan_results_{4, DropPolicy::Oldest};

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "common/config/resources.h"
 #include "common/core/log.h"
+#include "common/robot_model/robot_calibration.h"
 #include "robot/app/robot_impl.h"
+#include "robot/skills/arena_fence.h"
 
 namespace kiln {
 
@@ -24,6 +27,22 @@ Result<T> loadResource(const std::string& resource) {
   if (!file) return tl::make_unexpected(file.error());
   if (auto loaded = loadConfig(*file, config); !loaded) return tl::make_unexpected(loaded.error());
   return config;
+}
+
+/// The nominal geometry with what a calibration found of this robot.
+Result<RobotGeometry> calibratedGeometry(const RobotGeometry& nominal,
+                                         const RobotOptions& options) {
+  std::string file = options.calibration;
+  if (file.empty() && !options.state_dir.empty()) {
+    const std::string kept = options.state_dir + "/calibration.yaml";
+    if (std::filesystem::exists(kept)) file = kept;
+  }
+  if (file.empty()) {
+    logger("robot")->info("no calibration: the sensors are believed to sit where they were drawn");
+    return nominal;
+  }
+  logger("robot")->info("sensors calibrated by {}", file);
+  return loadCalibrated(file, nominal);
 }
 
 }  // namespace
@@ -54,13 +73,18 @@ Robot::Impl::Impl(const RobotSettings& settings_in, const RobotOptions& options_
       detector(settings.heat_detector),
       localizer(settings.localization.localizerConfig(), arena, robot),
       perception(settings.perception, executor, robot, history, self_filter, *locator, detector,
-                 settings.heat_detector.modelled_latency_s),
+                 settings.heat_detector.modelled_latency_s, settings.surroundings.obstacles),
+      surroundings(settings.surroundings, fireBoxSizes(arena), executor),
+      motion_watch(settings.motion_watch),
       drive(settings.drive_to, arena, base, [this] { return pose(); }),
       move_arm(settings.move_arm, robot, arena, arm, devices.arm, [this] { return pose(); }),
       world(initialWorld(arena)),
       sweep(settings.heat_localizer),
       mission({clock, arena, robot, world, drive, move_arm, devices.arm, pumps, sweep,
-               [this] { return pose(); }},
+               [this] { return pose(); }, surroundings,
+               [this](std::size_t place, const Eigen::Vector3d& p_plate_map, double facing_rad) {
+                 arena.movePlace(place, p_plate_map, facing_rad);
+               }},
               settings.fire, spray_in, {options.mission_uuid, checkpointPath()}),
       macros(settings.macros,
              {robot, arena, move_arm, pumps, spray_in, [this] { return pose(); },
@@ -82,6 +106,8 @@ void Robot::Impl::start(Executor& executor) {
   log_sink = addLogSink([this](const LogRecord& record) { telemetry.onLog(record, clock.now()); });
   localizer.reset(options.start_pose.value_or(arena.start.pose()), now);
   resets_seen = devices.resets();
+  drive.setSurroundings(&surroundings);
+  move_arm.setSurroundings(&surroundings);
   if (devices.lidar)
     warnIfFailed(devices.lidar->start([this](PointCloudPtr scan) {
       if (options.recorder) options.recorder->scan(scan);
@@ -110,6 +136,7 @@ void Robot::Impl::missionTick(Stamp now) {
   readSensors(now);
   takePerception(now);
   watchPosition(now);
+  watchMotion(now);
   obeyOperators(now);
   startWhenReady(now);
   control.step(now, authority.held(HoldKind::Macro, now));
@@ -124,6 +151,8 @@ void Robot::Impl::readSensors(Stamp now) {
     resets_seen = devices.resets();
     base.resetOdometry();
     history.clear();
+    surroundings.clear();
+    motion_watch.restart();
     localizer.reset(arena.start.pose(), now);
     carried = now;
     control.onReset(now);
@@ -141,8 +170,10 @@ void Robot::Impl::takePerception(Stamp now) {
       (void)localizer.addResult(result.prior, *result.match);
       if (locate_s.size() < kMostCosts) locate_s.push_back(static_cast<float>(result.locate_s));
     }
+    placeScan(result);
     telemetry.publish(result.cloud);
   }
+  surroundings.tick(base.tracking().X_odom_base);
   for (auto& result : perception.takeHeat()) {
     const auto sample = history.at(result.image->stamp);
     if (sample) {
@@ -169,6 +200,31 @@ void Robot::Impl::watchPosition(Stamp now) {
   if (tracked.health != PoseHealth::Lost || !fsm.running || fsm.paused || fsm.terminal) return;
   if (carried && now - *carried < kFirstFix) return;
   control.holdMission(positionLost(), now);
+}
+
+void Robot::Impl::placeScan(PerceptionJobs::ScanResult& result) {
+  const auto sample = history.at(result.cloud->stamp);
+  if (!sample || !result.obstacles) return;
+  // Height and tilt are those of now, a tenth of a second later.
+  const Eigen::Isometry3d X_plane_base =
+      toIsometry(tracked.X_map_base).inverse() * tracked.X_map_base_3d;
+  surroundings.add({result.cloud, std::move(*result.obstacles), sample->X_odom_base,
+                    toIsometry(tracked.X_map_odom * sample->X_odom_base) * X_plane_base});
+}
+
+/// The base must do what it is told, and go where localisation says: else the software STOP.
+void Robot::Impl::watchMotion(Stamp now) {
+  const BaseTracking tracking = base.tracking();
+  const bool located = tracked.health != PoseHealth::Lost;
+  base.placeInMap(located ? std::optional(tracked.X_map_odom) : std::nullopt);
+  if (!tracking.ready || stop.latched()) {
+    motion_watch.restart();
+    return;
+  }
+  const std::string wrong =
+      motion_watch.step({tracking.stamp, tracking.commanded, tracking.measured,
+                         tracking.X_odom_base, located ? std::optional(pose()) : std::nullopt});
+  if (!wrong.empty()) stop.set("motion watch: " + wrong, now);
 }
 
 void Robot::Impl::obeyOperators(Stamp now) {
@@ -216,6 +272,7 @@ void Robot::Impl::keepBooks(Stamp now) {
     report = MissionReport(options.mission, now);
   }
   report.observe(fsm);
+  for (const PlaceCheck& check : mission.placeChecks()) report.addPlaceCheck(check);
   report.setTotals(world.state().sprayed_l_est, world.state().resets);
   const BaseTracking tracking = base.tracking();
   report.addTrack({tracked.stamp, tracked.X_map_base, tracking.X_odom_base,
@@ -249,6 +306,11 @@ Result<std::unique_ptr<Robot>> Robot::create(const RobotSettings& settings,
                                              OperatorLink* link, StopLatch& stop) {
   auto robot = loadResource<RobotGeometry>(settings.geometry);
   if (!robot) return tl::make_unexpected(robot.error());
+  if (auto calibrated = calibratedGeometry(*robot, options); calibrated) {
+    robot = std::move(calibrated);
+  } else {
+    return tl::make_unexpected(calibrated.error());
+  }
   auto arena = loadResource<ArenaMap>(settings.arena);
   if (!arena) return tl::make_unexpected(arena.error());
   auto spray = loadResource<SprayCalibration>(settings.spray_calibration);
@@ -258,11 +320,14 @@ Result<std::unique_ptr<Robot>> Robot::create(const RobotSettings& settings,
   if (!folder) return tl::make_unexpected(folder.error());
   auto macros = loadMacros(*folder);
   if (!macros) return tl::make_unexpected(macros.error());
+  auto fence = arenaFence(*arena, *robot, settings.drive_to.fence);
+  if (!fence) return tl::make_unexpected(fence.error());
   auto location = makeLocation(settings.localization, *arena);
   if (!location) return tl::make_unexpected(location.error());
   auto impl = std::make_unique<Impl>(settings, options, std::move(devices), clock, executor, link,
                                      stop, std::move(*robot), std::move(*arena), *spray,
                                      std::move(*macros), std::move(*location));
+  impl->base.setGeofence(std::make_shared<const Geofence>(std::move(*fence)));
   impl->start(executor);
   if (options.resume) {
     if (auto resumed = impl->resume(clock.now()); !resumed)

@@ -22,6 +22,8 @@ struct RobotOptions {
   bool resume = false;    ///< go on from the checkpoint in state_dir
   bool lockstep = false;  ///< figures that depend on wall time stay out of reports
   std::string state_dir;  ///< checkpoint and pose; empty = keep nothing
+  std::string
+      calibration;  ///< file of kiln-eval calibrate; empty: state_dir/calibration.yaml if any
   std::string version;
   Environment environment = Environment::Sim;
   std::optional<Pose2> start_pose;  ///< where the robot stands; nullopt: where the arena says

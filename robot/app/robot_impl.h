@@ -27,6 +27,8 @@ struct Robot::Impl {
   void readSensors(Stamp now);
   void takePerception(Stamp now);
   void watchPosition(Stamp now);
+  void placeScan(PerceptionJobs::ScanResult& result);
+  void watchMotion(Stamp now);
   void obeyOperators(Stamp now);
   void startWhenReady(Stamp now);
   void keepBooks(Stamp now);
@@ -73,6 +75,8 @@ struct Robot::Impl {
   Localizer localizer;
   TrackedPose tracked;
   PerceptionJobs perception;
+  LiveSurroundings surroundings;
+  MotionWatch motion_watch;
   DriveTo drive;
   MoveArm move_arm;
   WorldModel world;

@@ -18,6 +18,8 @@ void RobotSettings::visit(ConfigArchive& a) {
   a.section("move_arm", move_arm, "arm motion");
   a.section("self_filter", self_filter, "the robot's own body in its scans");
   a.section("perception", perception, "how often what is looked at");
+  a.section("surroundings", surroundings, "what the live cloud says of the world around");
+  a.section("motion_watch", motion_watch, "does the base do what it is told?");
   a.section("localization", localization, "where the robot is");
   a.section("heat_detector", heat_detector, "thermal picture");
   a.section("heat_localizer", heat_localizer, "heat source over a sweep");

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "robot/app/live_surroundings.h"
 #include "robot/app/localization_settings.h"
 #include "robot/app/perception_jobs.h"
 #include "robot/app/preflight.h"
@@ -10,6 +11,7 @@
 #include "robot/missions/fire/fire_mission.h"
 #include "robot/perception/thermal/heat_localizer.h"
 #include "robot/safety/authority.h"
+#include "robot/safety/motion_watch.h"
 #include "robot/skills/drive_to.h"
 #include "robot/skills/macro_runner.h"
 #include "robot/skills/move_arm.h"
@@ -33,6 +35,8 @@ struct RobotSettings {
   MoveArm::Config move_arm;
   SelfFilter::Config self_filter;
   PerceptionJobs::Config perception;
+  LiveSurroundings::Config surroundings;
+  MotionWatch::Config motion_watch;
   LocalizationSettings localization;
   HeatDetector::Config heat_detector;
   HeatLocalizer::Config heat_localizer;

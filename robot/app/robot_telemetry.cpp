@@ -41,6 +41,12 @@ void Robot::Impl::raiseAlarms(Stamp now) {
              "Position lost", "drive by hand or call a reset", now);
   alarms.set("teleop.too_near", control.mode() == Mode::Teleop && !teleop.blocked().empty(),
              AlarmLevel::Advisory, "Arm jog stopped: " + teleop.blocked(), "jog away from it", now);
+  const std::string fence = base.tracking().limited;
+  alarms.set("base.fence", !fence.empty(), AlarmLevel::Advisory, "Base limited by the " + fence,
+             "drive back into the arena", now);
+  const bool refused = fsm.running && fsm.state == "PlaceRefused";
+  alarms.set("place.refused", refused, AlarmLevel::Caution, fsm.display_text,
+             "compare configured and sensed outline, nudge the place or force Arm search", now);
   const auto mission_alarms = mission.alarms();
   storage_ok = mission_alarms.empty();
   alarms.set("storage", !storage_ok, AlarmLevel::Caution,
@@ -163,6 +169,7 @@ Scene Robot::Impl::scene(Stamp now) const {
   scene.planned = {now, drive.waypoints(), drive.nextIndex()};
   scene.jet = mission.jetPreview(now);
   scene.arena = sceneBoxes(arena);
+  scene.place_checks = mission.placeChecks();
   return scene;
 }
 

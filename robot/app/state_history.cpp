@@ -6,6 +6,7 @@ namespace kiln {
 namespace {
 
 constexpr Duration kExtrapolation = std::chrono::milliseconds(50);
+constexpr Duration kGoesOn = std::chrono::milliseconds(10);
 
 RobotSample blend(const RobotSample& a, const RobotSample& b, Stamp stamp) {
   const double s = toSeconds(stamp - a.stamp) / toSeconds(b.stamp - a.stamp);
@@ -33,7 +34,12 @@ std::optional<RobotSample> StateHistory::at(Stamp stamp) const {
   if (samples_.empty() || stamp < samples_.front().stamp) return std::nullopt;
   if (stamp >= samples_.back().stamp) {
     if (stamp > samples_.back().stamp + kExtrapolation) return std::nullopt;
-    return samples_.back();
+    if (samples_.size() < 2) return samples_.back();
+    const RobotSample &a = samples_[samples_.size() - 2], &b = samples_.back();
+    if (b.stamp - a.stamp > kExtrapolation) return b;
+    RobotSample ahead = blend(a, b, std::min(stamp, b.stamp + kGoesOn));
+    ahead.stamp = stamp;
+    return ahead;
   }
   const auto after =
       std::upper_bound(samples_.begin(), samples_.end(), stamp,

@@ -23,8 +23,9 @@ class StateHistory {
  public:
   explicit StateHistory(Duration span = std::chrono::seconds(3)) : span_(span) {}
   void add(const RobotSample& sample);
-  /// Linear interpolation; the newest sample when `stamp` is at most 50 ms ahead of it; nullopt
-  /// outside.
+  /// Linear interpolation. Ahead of the newest sample the motion goes on as it was for 10 ms (a
+  /// scan's last points are often newer than the last joint state) and is then held, up to 50 ms;
+  /// nullopt outside.
   [[nodiscard]] std::optional<RobotSample> at(Stamp stamp) const;
   [[nodiscard]] std::optional<RobotSample> newest() const;
   void clear();

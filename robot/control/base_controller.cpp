@@ -52,7 +52,7 @@ struct BaseController::Impl {
 
   struct Wish {
     Eigen::Vector3d target = Eigen::Vector3d::Zero();
-    std::string blocked;
+    std::string blocked, limited;
   };
 
   Eigen::Vector3d weighted(const Twist2& t) const {
@@ -77,18 +77,27 @@ struct BaseController::Impl {
   Wish wish(Stamp now, const std::optional<BaseState>& state) {
     if (stop.latched()) {
       slot.clear();
-      return {Eigen::Vector3d::Zero(), "STOP latched by " + stop.source()};
+      return {Eigen::Vector3d::Zero(), "STOP latched by " + stop.source(), ""};
     }
-    if (!state) return {Eigen::Vector3d::Zero(), "no wheel state yet"};
+    if (!state) return {Eigen::Vector3d::Zero(), "no wheel state yet", ""};
     const double age = toSeconds(now - state->stamp);
     if (age > config.max_state_age_s) {
-      return {Eigen::Vector3d::Zero(), fmt::format("wheel state is {:.0f} ms old", 1e3 * age)};
+      return {Eigen::Vector3d::Zero(), fmt::format("wheel state is {:.0f} ms old", 1e3 * age), ""};
     }
-    if (!kiln::isFinite(*state)) return {Eigen::Vector3d::Zero(), "wheel state is not a number"};
+    if (!kiln::isFinite(*state))
+      return {Eigen::Vector3d::Zero(), "wheel state is not a number", ""};
     const auto taken = slot.take(now, fromSeconds(config.max_setpoint_age_s),
                                  fromSeconds(config.future_tolerance_s));
-    if (!taken.setpoint) return {Eigen::Vector3d::Zero(), taken.blocked};
-    return {limited(taken.setpoint->twist), ""};
+    if (!taken.setpoint) return {Eigen::Vector3d::Zero(), taken.blocked, ""};
+    const Geofence::Limited allowed = insideFence(taken.setpoint->twist);
+    return {limited(allowed.twist), "", allowed.reason};
+  }
+
+  Geofence::Limited insideFence(const Twist2& twist) const {
+    const std::lock_guard lock(mutex);
+    if (!fence || !X_map_odom) return {twist, false, ""};
+    // A command above the speed limits would seem to need more room than it will.
+    return fence->limit(twistOf(limited(twist)), *X_map_odom * odometry.pose());
   }
 
   /// Where the wheels shall point for the motion at hand; at rest for the motion that is wished.
@@ -169,6 +178,7 @@ struct BaseController::Impl {
         fresh && limiter.velocity().isZero(1e-6) && weighted(measured.twist).norm() < kRestSpeed;
     tracking.stop_latched = stop.latched();
     tracking.blocked = w.blocked;
+    tracking.limited = w.limited;
   }
 
   Config config;
@@ -187,6 +197,8 @@ struct BaseController::Impl {
   std::atomic<bool> reset_odometry{false};
   mutable std::mutex mutex;
   BaseTracking tracking;
+  std::shared_ptr<const Geofence> fence;
+  std::optional<Pose2> X_map_odom;
 };
 
 BaseController::BaseController(Config config, const RobotGeometry& robot, DriveBase& base,
@@ -202,9 +214,20 @@ void BaseController::setpoint(const BaseSetpoint& setpoint) {
   impl_->slot.put(setpoint);
 }
 
+void BaseController::setGeofence(std::shared_ptr<const Geofence> fence) {
+  const std::lock_guard lock(impl_->mutex);
+  impl_->fence = std::move(fence);
+}
+
+void BaseController::placeInMap(const std::optional<Pose2>& X_map_odom) {
+  const std::lock_guard lock(impl_->mutex);
+  impl_->X_map_odom = X_map_odom;
+}
+
 void BaseController::resetOdometry() {
   impl_->reset_odometry = true;
   const std::lock_guard lock(impl_->mutex);
+  impl_->X_map_odom.reset();
   impl_->tracking.X_odom_base = {};
 }
 

@@ -2,12 +2,14 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "common/config/config_archive.h"
 #include "common/core/clock.h"
 #include "common/robot_model/robot_geometry.h"
 #include "robot/hal/drive_base.h"
+#include "robot/safety/geofence.h"
 #include "robot/safety/stop_latch.h"
 
 namespace kiln {
@@ -33,6 +35,7 @@ struct BaseTracking {
   bool stop_latched = false;
   bool at_rest = true;
   std::string blocked;
+  std::string limited;  ///< what the geofence took away from the command, and why
 };
 
 /// Four steered wheels: inverse kinematics with steering range and rate limits (waits for the
@@ -65,6 +68,11 @@ class BaseController {
   BaseController(Config config, const RobotGeometry& robot, DriveBase& base, const StopLatch& stop);
   ~BaseController();
   void setpoint(const BaseSetpoint& setpoint);
+  /// From then on no command leads the footprint out of the fence, whoever gives it. Before the
+  /// first placeInMap() nothing is limited: where the robot stands is not known.
+  void setGeofence(std::shared_ptr<const Geofence> fence);
+  /// X_map_odom of localisation, at each correction; nullopt: not known (lost).
+  void placeInMap(const std::optional<Pose2>& X_map_odom);
   void resetOdometry();
   void tick(Stamp now);
   [[nodiscard]] BaseTracking tracking() const;

@@ -30,6 +30,8 @@ struct Evaluation {
 [[nodiscard]] Result<EvaluationResult> evaluateLocalization(const SweepOptions& options);
 [[nodiscard]] Result<EvaluationResult> evaluateFallback(const SweepOptions& options);
 [[nodiscard]] Result<EvaluationResult> evaluateStop(const SweepOptions& options);
+[[nodiscard]] Result<EvaluationResult> evaluatePlaceCheck(const SweepOptions& options);
+[[nodiscard]] Result<EvaluationResult> calibrateSensors(const SweepOptions& options);
 [[nodiscard]] Result<EvaluationResult> calibrateSpray(const SweepOptions& options);
 
 }  // namespace kiln

@@ -12,6 +12,10 @@ void GroundPoseConfig::visit(ConfigArchive& a) {
   a.field("yaw_deg", yaw_deg, "deg", -360, 360, "heading");
 }
 
+void GroundPointConfig::visit(ConfigArchive& a) {
+  a.field("xy_m", xy_m, "m", -1e3, 1e3, "position on the ground");
+}
+
 Pose2 GroundPoseConfig::pose() const { return {xy_m[0], xy_m[1], yaw_deg * kDeg}; }
 
 void FirePlaceConfig::visit(ConfigArchive& a) {
@@ -31,6 +35,8 @@ void ArenaMap::visit(ConfigArchive& a) {
   a.section("doorway", doorway, "middle of the entrance, X into the building");
   a.list("entry_path", entry_path, "way-points from the start to the hub inside");
   a.list("fire_places", fire_places, "known fire places, in the order of visits");
+  a.list("geofence", geofence,
+         "border of the arena, corners in order; the whole robot stays inside");
   a.field("geofence_x_min_m", geofence_x_min_m, "m", -1e3, 1e3, "the base centre stays inside");
   a.field("geofence_x_max_m", geofence_x_max_m, "m", -1e3, 1e3, "the base centre stays inside");
   a.field("geofence_y_min_m", geofence_y_min_m, "m", -1e3, 1e3, "the base centre stays inside");
@@ -41,6 +47,20 @@ void ArenaMap::visit(ConfigArchive& a) {
   a.field("recess_m", recess_m, "m", 0, 1, "plate behind the opening");
   a.field("table_size_m", table_size_m, "m", 0.1, 3, "edge of the table top");
   a.field("table_height_m", table_height_m, "m", 0.1, 2, "height of the table top");
+}
+
+Eigen::Isometry3d ArenaMap::front(const Eigen::Vector3d& p_plate_map, double facing_rad) const {
+  return makePose(p_plate_map, {0, 0, facing_rad}) * Eigen::Translation3d(recess_m, 0, 0);
+}
+
+void ArenaMap::movePlace(std::size_t index, const Eigen::Vector3d& p_plate_map, double facing_rad) {
+  FirePlaceConfig& place = fire_places[index];
+  const Pose2 before{place.plate_xyz_m[0], place.plate_xyz_m[1], place.facing_deg * kDeg};
+  const Pose2 after{p_plate_map.x(), p_plate_map.y(), facing_rad};
+  const Pose2 work = after * inverse(before) * place.work_pose.pose();
+  place.work_pose = {{work.x_m, work.y_m}, work.yaw_rad / kDeg};
+  place.plate_xyz_m = {p_plate_map.x(), p_plate_map.y(), p_plate_map.z()};
+  place.facing_deg = facing_rad / kDeg;
 }
 
 std::vector<BoxConfig> ArenaMap::fireFurniture() const {

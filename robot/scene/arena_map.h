@@ -18,6 +18,12 @@ struct GroundPoseConfig {
   [[nodiscard]] Pose2 pose() const;
 };
 
+/// A point on the ground as it stands in YAML: [x m, y m].
+struct GroundPointConfig {
+  std::vector<double> xy_m{0, 0};
+  void visit(ConfigArchive& a);
+};
+
 /// One of the two known fire places: where the plate is expected and from where the robot works on
 /// it.
 struct FirePlaceConfig {
@@ -42,6 +48,9 @@ struct ArenaMap {
   GroundPoseConfig doorway;                  ///< middle of the entrance, X into the building
   std::vector<GroundPoseConfig> entry_path;  ///< way-points start -> inside (last one is the hub)
   std::vector<FirePlaceConfig> fire_places;
+  /// Border of the arena: corners in order. The whole robot stays inside, also in teleoperation.
+  /// Empty: the box of the four limits below.
+  std::vector<GroundPointConfig> geofence;
   double geofence_x_min_m = -3, geofence_x_max_m = 16, geofence_y_min_m = -7, geofence_y_max_m = 7;
   // Fire box (acrylic), same at both places; sizes from the rules.
   double box_size_m = 0.4;
@@ -50,6 +59,12 @@ struct ArenaMap {
   double recess_m = 0.10;   ///< plate behind the opening
   double table_size_m = 0.7, table_height_m = 0.8;
   void visit(ConfigArchive& a);
+  /// Pose of a fire place's front: middle of the opening, in the outer face of the box, X outward.
+  [[nodiscard]] Eigen::Isometry3d front(const Eigen::Vector3d& p_plate_map,
+                                        double facing_rad) const;
+  /// The place stands elsewhere than was configured: moves its plate, and the pose from which the
+  /// robot works on it along. @pre index < fire_places.size().
+  void movePlace(std::size_t index, const Eigen::Vector3d& p_plate_map, double facing_rad);
   /// Tables and boxes at their configured places, as boxes for planning and drawing.
   [[nodiscard]] std::vector<BoxConfig> fireFurniture() const;
 };

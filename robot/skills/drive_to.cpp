@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "robot/planning/base_path/base_path.h"
+#include "robot/skills/arena_fence.h"
 
 namespace kiln {
 namespace {
@@ -82,13 +83,20 @@ void DriveTo::Config::visit(ConfigArchive& a) {
   a.field("stuck_ratio", stuck_ratio, "", 0.01, 0.9, "less of the commanded way is stuck");
   a.field("edge_speed_mps", edge_speed_mps, "m/s", 0.05, 2, "over the edge before the door");
   a.field("edge_distance_m", edge_distance_m, "m", 0, 2, "slow from so far before it on");
+  a.section("guard", guard, "live cloud ahead of the driving base");
+  a.section("fence", fence, "way-points against the arena's border");
   a.field("footprint_length_m", footprint_length_m, "m", 0, 5, "checked against known boxes");
   a.field("footprint_width_m", footprint_width_m, "m", 0, 5, "checked against known boxes");
 }
 
 struct DriveTo::Impl {
   Impl(Config c, const ArenaMap& arena_map, BaseController& controller, PoseSource source)
-      : config(c), arena(arena_map), base(controller), pose(std::move(source)) {
+      : config(c),
+        arena(arena_map),
+        base(controller),
+        pose(std::move(source)),
+        guard(c.guard),
+        fence(fenceOf(arena_map, c)) {
     path_config.speed_mps = c.speed_mps;
     path_config.approach_speed_mps = c.approach_speed_mps;
     path_config.approach_distance_m = c.approach_distance_m;
@@ -98,10 +106,14 @@ struct DriveTo::Impl {
     path_config.corner_radius_m = c.corner_radius_m;
   }
 
-  bool inFence(const Pose2& p, double slack) const {
-    return p.x_m >= arena.geofence_x_min_m - slack && p.x_m <= arena.geofence_x_max_m + slack &&
-           p.y_m >= arena.geofence_y_min_m - slack && p.y_m <= arena.geofence_y_max_m + slack;
+  static Result<Geofence> fenceOf(const ArenaMap& arena_map, const Config& c) {
+    RobotGeometry footprint;
+    footprint.length_m = c.footprint_length_m;
+    footprint.width_m = c.footprint_width_m;
+    return arenaFence(arena_map, footprint, c.fence);
   }
+
+  bool inFence(const Pose2& p, double slack) const { return fence->room(p) >= -slack; }
 
   void send(const Twist2& twist, Stamp now) {
     BaseSetpoint setpoint;
@@ -126,7 +138,14 @@ struct DriveTo::Impl {
     arrived = false;
     settled_since.reset();
     began = last = now;
+    guard.restart();
+    hindrance.clear();
+    speed_limit = 1e9;
     const Pose2 here = pose();
+    if (!fence) {
+      fail("geofence", fence.error().message, now);
+      return;
+    }
     if (!isFinite(here)) {
       fail("no_pose", "the pose of the base is not known", now);
       return;
@@ -141,6 +160,13 @@ struct DriveTo::Impl {
       return;
     }
     path.emplace(here, waypoints, path_config);
+    const auto leaves = [&](const Pose2& on_the_way) {
+      return !inFence(on_the_way, std::max(config.geofence_slack_m, -fence->room(here)));
+    };
+    if (std::any_of(path->samples().begin(), path->samples().end(), leaves)) {
+      fail("geofence", "the way between the way-points leaves the geofence", now);
+      return;
+    }
     std::vector<BoxConfig> boxes = arena.walls;
     boxes.insert(boxes.end(), arena.furniture.begin(), arena.furniture.end());
     for (BoxConfig& box : arena.fireFurniture()) boxes.push_back(std::move(box));
@@ -167,6 +193,10 @@ struct DriveTo::Impl {
         (config.wait_error_m - error_m) / std::max(1e-6, config.wait_error_m - config.slow_error_m);
     wanted = aligning ? 0.0 : std::clamp(wanted, 0.0, 1.0);
     wanted = std::min(wanted, edgeRate());
+    const Twist2 v = path->at(clock_s).v_map;
+    const double speed = std::hypot(v.vx_mps, v.vy_mps, path_config.turn_weight_m * v.wz_radps);
+    if (speed > speed_limit) wanted = std::min(wanted, speed_limit / speed);
+    if (speed_limit <= 0.0) wanted = 0.0;  // also before the first step, where the speed is zero
     rate += std::clamp(wanted - rate, -kRateChange * dt, kRateChange * dt);
     clock_s += rate * dt;
   }
@@ -202,7 +232,7 @@ struct DriveTo::Impl {
   SkillStatus poll(Stamp now) {
     if (status.phase != SkillPhase::Running) return status;
     const double dt = std::clamp(toSeconds(now - last), 0.0, kMaxTick);
-    last = now;
+    const Stamp previous = std::exchange(last, now);
     const BaseTracking tracking = base.tracking();
     const Pose2 here = pose();
     if (!isFinite(here)) return fail("no_pose", "the pose of the base is not known", now);
@@ -212,6 +242,15 @@ struct DriveTo::Impl {
     }
     if (stuck.update(now, dt, here, tracking, config, path_config.turn_weight_m)) {
       return fail("stuck", "the base does not follow its wheels' command", now);
+    }
+    if (path->duration() > 0.0 && surroundings) {
+      const CorridorGuard::View ahead =
+          guard.look(*surroundings, *path, path->at(clock_s).s, here, config.footprint_length_m,
+                     config.footprint_width_m, now);
+      speed_limit = ahead.max_speed_mps;
+      hindrance = ahead.reason;
+      if (ahead.given_up) return fail("blocked", ahead.reason, now);
+      if (speed_limit <= 0.0) began += now - previous;  // waiting is not being late
     }
     const double limit = config.timeout_factor * path->duration() + config.timeout_slack_s;
     if (toSeconds(now - began) > limit) {
@@ -226,11 +265,14 @@ struct DriveTo::Impl {
     const Pose2& goal = waypoints.back();
     const double to_go = std::hypot(goal.x_m - here.x_m, goal.y_m - here.y_m);
     judgeArrival(to_go, wrapAngle(goal.yaw_rad - here.yaw_rad));
-    send(arrived ? Twist2{} : command(ref, here, tracking.aligning), now);
+    const bool waiting = speed_limit <= 0.0 && rate <= 0.0;
+    send(arrived || waiting ? Twist2{} : command(ref, here, tracking.aligning), now);
     if (!arrived || !tracking.at_rest) settled_since.reset();
     if (arrived && tracking.at_rest && !settled_since) settled_since = now;
     status.progress = path->length() > 0.0 ? ref.s / path->length() : 1.0;
     status.text = fmt::format("{:.2f} m to go", to_go);
+    if (!tracking.limited.empty()) status.text += "; " + tracking.limited;
+    if (!hindrance.empty()) status.text = hindrance;
     if (settled_since && toSeconds(now - *settled_since) >= config.settle_s) {
       status = {SkillPhase::Done, 1.0, fmt::format("there, {:.0f} mm off", 1e3 * to_go), ""};
     }
@@ -242,6 +284,11 @@ struct DriveTo::Impl {
   const ArenaMap& arena;
   BaseController& base;
   PoseSource pose;
+  CorridorGuard guard;
+  Result<Geofence> fence;
+  const Surroundings* surroundings = nullptr;
+  double speed_limit = 1e9;
+  std::string hindrance;
   std::vector<Pose2> waypoints;
   std::optional<BasePath> path;
   StuckWatch stuck;
@@ -256,6 +303,10 @@ struct DriveTo::Impl {
 DriveTo::DriveTo(Config config, const ArenaMap& arena, BaseController& base, PoseSource pose)
     : impl_(std::make_unique<Impl>(config, arena, base, std::move(pose))) {}
 DriveTo::~DriveTo() = default;
+
+void DriveTo::setSurroundings(const Surroundings* surroundings) {
+  impl_->surroundings = surroundings;
+}
 
 void DriveTo::start(std::vector<Pose2> waypoints_map, Stamp now) {
   impl_->waypoints = std::move(waypoints_map);

@@ -6,7 +6,9 @@
 
 #include "common/core/clock.h"
 #include "robot/control/base_controller.h"
+#include "robot/safety/geofence.h"
 #include "robot/scene/arena_map.h"
+#include "robot/skills/corridor_guard.h"
 #include "robot/skills/motion.h"
 
 namespace kiln {
@@ -15,7 +17,8 @@ namespace kiln {
 /// jerk-limited speed, and stops at the last one. Judges by `pose` (X_map_base, from odometry or
 /// localisation), which may be noisy and may jump by centimetres: the reference runs along the path
 /// by itself and waits when the base lags behind. Failure codes: geofence, in_collision (a
-/// way-point line leads through a known box), stuck, stopped, timeout, no_pose.
+/// way-point line leads through a known box), blocked (something stands in the way and stays),
+/// stuck, stopped, timeout, no_pose.
 class DriveTo final : public BaseMotion {
  public:
   struct Config {
@@ -43,12 +46,16 @@ class DriveTo final : public BaseMotion {
         0.2;  ///< way-points keep the fence, the driving base may pass it by this
     double stuck_window_s = 2.0;  ///< commanded against covered way over this time
     double stuck_ratio = 0.3;     ///< less of the commanded way than this is stuck
+    CorridorGuard::Config guard;  ///< against the live cloud
+    Geofence::Config fence;       ///< for the way-points; the controller holds the same
     double footprint_length_m = 1.9, footprint_width_m = 1.4;  ///< checked against the known boxes
     void visit(ConfigArchive& a);
   };
   using PoseSource = std::function<Pose2()>;  ///< newest X_map_base
   DriveTo(Config config, const ArenaMap& arena, BaseController& base, PoseSource pose);
   ~DriveTo() override;
+  /// From then on drives only where the live cloud is free. nullptr: as before.
+  void setSurroundings(const Surroundings* surroundings);
   /// Refuses (Failed at the first poll) way-points outside the geofence.
   void start(std::vector<Pose2> waypoints_map, Stamp now) override;
   [[nodiscard]] SkillStatus poll(Stamp now) override;

@@ -47,16 +47,17 @@ void MoveArm::Config::visit(ConfigArchive& a) {
   a.field("planning_slice", planning_slice, "", 1, 10000, "search iterations in one poll");
   a.section("planner", planner, "search for a way around obstacles");
   a.section("cartesian", cartesian, "straight lines");
+  a.section("watch", watch, "live cloud where the arm would pass");
 }
 
 struct MoveArm::Impl {
   enum class Stage { Idle, Settling, Planning, Moving };
 
-  Impl(Config c, const RobotGeometry& geometry, const ArenaMap& arena,
+  Impl(Config c, const RobotGeometry& geometry, const ArenaMap& arena_map,
        ArmController& arm_controller, const Arm& device, PoseSource source)
       : config(withClearance(std::move(c))),
         robot(geometry),
-        scene(sceneBoxes(arena)),
+        arena(arena_map),
         controller(arm_controller),
         arm(device),
         pose(std::move(source)),
@@ -134,7 +135,7 @@ struct MoveArm::Impl {
   }
 
   SkillStatus plan(Stamp now) {
-    collision.setScene(scene, pose());
+    collision.setScene(sceneBoxes(arena), pose());  // the operator may have moved a place
     if (const auto* lines = std::get_if<LineGoal>(&goal)) return planLines(*lines, now);
     std::vector<Vector6d> goals;
     if (const auto* q = std::get_if<Vector6d>(&goal)) {
@@ -191,7 +192,7 @@ struct MoveArm::Impl {
     JointPathLimits limits = jointLimits();
     limits.path_speed = config.cartesian_speed_mps;
     limits.path_accel = config.cartesian_accel_mps2;
-    return begin(JointTrajectory(std::move(*paths), limits), now);
+    return begin(std::move(*paths), limits, now);
   }
 
   JointPathLimits jointLimits() const {
@@ -223,11 +224,17 @@ struct MoveArm::Impl {
     for (std::size_t k = 1; k < planner.path().size(); ++k) {
       paths.push_back(straightJointPath(planner.path()[k - 1], planner.path()[k]));
     }
-    return begin(JointTrajectory(std::move(paths), jointLimits()), now);
+    return begin(std::move(paths), jointLimits(), now);
   }
 
-  SkillStatus begin(JointTrajectory planned, Stamp now) {
-    trajectory = std::move(planned);
+  SkillStatus begin(std::vector<JointPath> paths, const JointPathLimits& limits, Stamp now) {
+    if (surroundings) {
+      std::string why =
+          whatHindersArm(config.watch, collision, robot.X_base_armbase.pose().translation(), paths,
+                         *surroundings, now);
+      if (!why.empty()) return fail("obstacle", std::move(why), now);
+    }
+    trajectory.emplace(std::move(paths), limits);
     enter(Stage::Moving, now);
     stream(now);
     return status;
@@ -274,7 +281,7 @@ struct MoveArm::Impl {
     const auto goals = postures(X_base_flange, state ? state->q : Vector6d::Zero());
     if (goals.empty()) return makeError(ErrorCode::Degenerate, "no arm posture reaches the pose");
     ArmCollision world(robot);
-    world.setScene(scene, pose());
+    world.setScene(sceneBoxes(arena), pose());
     std::string nearest;
     for (const Vector6d& q : goals) {
       if (roomFor(world, q, nearest)) return q;
@@ -284,7 +291,8 @@ struct MoveArm::Impl {
 
   Config config;
   const RobotGeometry& robot;
-  std::vector<BoxConfig> scene;
+  const ArenaMap& arena;
+  const Surroundings* surroundings = nullptr;
   ArmController& controller;
   const Arm& arm;
   PoseSource pose;
@@ -303,6 +311,10 @@ MoveArm::MoveArm(Config config, const RobotGeometry& robot, const ArenaMap& aren
     : impl_(std::make_unique<Impl>(std::move(config), robot, arena, controller, arm,
                                    std::move(pose))) {}
 MoveArm::~MoveArm() = default;
+
+void MoveArm::setSurroundings(const Surroundings* surroundings) {
+  impl_->surroundings = surroundings;
+}
 
 void MoveArm::startJoints(const Vector6d& q_goal, Stamp now) { impl_->start(q_goal, now); }
 

@@ -10,6 +10,7 @@
 #include "robot/planning/arm_motion/arm_planner.h"
 #include "robot/planning/arm_motion/cartesian_path.h"
 #include "robot/scene/arena_map.h"
+#include "robot/skills/arm_watch.h"
 #include "robot/skills/motion.h"
 
 namespace kiln {
@@ -18,7 +19,8 @@ namespace kiln {
 /// self-collision, collision with base, tanks and the known scene, then a jerk-limited joint or
 /// straight-line trajectory that is streamed as setpoints at 50 Hz. Guarded by default: stops on
 /// unexpected force. Starting a move holds the arm first (which also ends a latched contact stop)
-/// and plans from rest. Failure codes: unreachable, in_collision, contact, protective_stop,
+/// and plans from rest. Failure codes: unreachable, in_collision, obstacle (the live cloud shows
+/// something where the arm would pass), contact, protective_stop,
 /// tracking, timeout, stopped.
 class MoveArm final : public ArmMotion {
  public:
@@ -35,12 +37,15 @@ class MoveArm final : public ArmMotion {
     int planning_slice = 10;          ///< search iterations in one poll
     ArmPlanner::Config planner;
     CartesianPathConfig cartesian;
+    ArmWatchConfig watch;
     void visit(ConfigArchive& a);
   };
   using PoseSource = std::function<Pose2()>;
   MoveArm(Config config, const RobotGeometry& robot, const ArenaMap& arena,
           ArmController& controller, const Arm& arm, PoseSource pose);
   ~MoveArm() override;
+  /// From then on each path is held against the live cloud before the arm moves. nullptr: not.
+  void setSurroundings(const Surroundings* surroundings);
   /// Joint-space move, rad.
   void startJoints(const Vector6d& q_goal, Stamp now) override;
   /// Flange pose in base; the solution nearest to the present joints that is free of collision

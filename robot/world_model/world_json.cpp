@@ -43,6 +43,8 @@ json toJson(const FirePlace& place) {
       {"name", place.name},
       {"p_plate_map", {place.p_plate_map.x(), place.p_plate_map.y(), place.p_plate_map.z()}},
       {"facing_rad", place.facing_rad},
+      {"nudges", place.nudges},
+      {"nudge", {place.nudge.x_m, place.nudge.y_m, place.nudge.yaw_rad}},
       {"visited", place.visited},
       {"extinguished", place.extinguished},
       {"litres_est", place.litres_est},
@@ -61,6 +63,9 @@ FirePlace placeFrom(const json& j) {
   out.name = j.at("name").get<std::string>();
   out.p_plate_map = vectorFrom(j.at("p_plate_map"));
   out.facing_rad = j.at("facing_rad").get<double>();
+  out.nudges = j.at("nudges").get<int>();
+  const Eigen::Vector3d nudge = vectorFrom(j.at("nudge"));
+  out.nudge = {nudge.x(), nudge.y(), nudge.z()};
   out.visited = j.at("visited").get<bool>();
   out.extinguished = j.at("extinguished").get<bool>();
   out.litres_est = j.at("litres_est").get<double>();

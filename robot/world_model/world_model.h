@@ -3,6 +3,7 @@
 #include <memory>
 #include <mutex>
 
+#include "common/core/error.h"
 #include "robot/world_model/world_state.h"
 
 namespace kiln {
@@ -18,6 +19,12 @@ class WorldModel {
   /// nullptr when no place is selected. Mission thread only.
   [[nodiscard]] FirePlace* currentPlace();
   [[nodiscard]] const FirePlace* currentPlace() const;
+
+  /// The operator's correction of where a place stands: shifted by (x, y) in map and turned by yaw
+  /// about its plate. What was seen of its fire before is forgotten, and it may be visited anew.
+  /// Error: Refused for more than 1 m or 30 deg at once (a mistake, not a nudge), InvalidInput for
+  /// an unknown place or a correction that is not finite.
+  [[nodiscard]] Result<void> nudgePlace(std::size_t index, const Pose2& correction);
 
   void startClock(Stamp now);
   /// Takes over a checkpointed state. When robot time runs on the same clock as at `saved_at`, the

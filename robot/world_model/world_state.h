@@ -13,8 +13,11 @@ namespace kiln {
 /// What is known of one configured fire place, and what was tried there.
 struct FirePlace {
   std::string name;
-  Eigen::Vector3d p_plate_map = Eigen::Vector3d::Zero();  ///< configured plate centre, m
-  double facing_rad = 0.0;    ///< configured yaw of the opening's outward normal
+  /// Plate centre as configured, and as the operator has nudged it; m.
+  Eigen::Vector3d p_plate_map = Eigen::Vector3d::Zero();
+  double facing_rad = 0.0;    ///< yaw of the opening's outward normal, likewise
+  int nudges = 0;             ///< by the operator, since the mission began
+  Pose2 nudge;                ///< what they add up to: (x, y) in map, yaw about the plate
   bool visited = false;       ///< done with it in this round
   bool extinguished = false;  ///< all its water was delivered (estimated)
   std::optional<FireEstimate> estimate;

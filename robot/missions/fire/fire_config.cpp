@@ -34,6 +34,13 @@ void FireDriveConfig::visit(ConfigArchive& a) {
   a.field("rest_s", rest_s, "s", 0.0, 30.0, "before a retry");
 }
 
+void FireCheckConfig::visit(ConfigArchive& a) {
+  a.field("max_looks", max_looks, "", 1, 20, "until a place counts as misplaced or unseen");
+  a.field("between_looks_s", between_looks_s, "s", 0, 10, "the position settles meanwhile");
+  a.field("look_timeout_s", look_timeout_s, "s", 0.2, 60, "for one answer");
+  a.field("wait_s", wait_s, "s", 0, 3600, "for the operator, then the place is left out");
+}
+
 void FireSearchConfig::visit(ConfigArchive& a) {
   a.section("motion", motion, "rectangular search motion");
   a.field("max_searches", max_searches, "", 1, 10, "of a plate that was glimpsed, a place");
@@ -102,6 +109,7 @@ void FireClockConfig::visit(ConfigArchive& a) {
 void FireConfig::visit(ConfigArchive& a) {
   a.section("heating", heating, "how the plate warms");
   a.section("drive", drive, "driving between places");
+  a.section("check", check, "configured against sensed place");
   a.section("search", search, "looking for the heat source");
   a.section("aim", aim, "bringing the nozzle to its spray pose");
   a.section("spray", spray, "water");

@@ -30,6 +30,15 @@ struct FireDriveConfig {
   void visit(ConfigArchive& a);
 };
 
+/// Configured against sensed, before the arm moves before a place.
+struct FireCheckConfig {
+  int max_looks = 3;  ///< until a place counts as misplaced or not to be seen
+  double between_looks_s = 0.6;
+  double look_timeout_s = 4.0;  ///< for one answer
+  double wait_s = 120.0;        ///< for the operator, then the place is left out
+  void visit(ConfigArchive& a);
+};
+
 struct FireSearchConfig {
   SearchConfig motion;
   int max_searches = 2;  ///< of a plate that is hot and was glimpsed, a place
@@ -97,6 +106,7 @@ struct FireClockConfig {
 struct FireConfig {
   PlateHeatingConfig heating;
   FireDriveConfig drive;
+  FireCheckConfig check;
   FireSearchConfig search;
   FireAimConfig aim;
   FireSprayConfig spray;

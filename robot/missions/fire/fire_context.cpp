@@ -29,6 +29,10 @@ FirePlace& FireContext::place() const {
   return *current;
 }
 
+Eigen::Isometry3d FireContext::placeFront() const {
+  return devices.arena.front(place().p_plate_map, place().facing_rad);
+}
+
 std::string FireContext::whyNoPlace() const {
   return hasPlace() ? "" : "no fire place is selected; enter Next location first";
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -14,6 +15,7 @@
 #include "robot/skills/look/heat_watch.h"
 #include "robot/skills/look/look_around.h"
 #include "robot/skills/motion.h"
+#include "robot/skills/surroundings.h"
 #include "robot/world_model/world_model.h"
 
 namespace kiln {
@@ -30,6 +32,11 @@ struct FireDevices {
   PumpController& pumps;
   HeatSweep& heat;              ///< HeatLocalizer behind an adapter
   std::function<Pose2()> pose;  ///< newest X_map_base
+  Surroundings& surroundings;   ///< the live cloud
+  /// A place stands elsewhere than the arena's file says: makes the arena that everybody plans with
+  /// follow. Called with what the world model believes.
+  std::function<void(std::size_t place, const Eigen::Vector3d& p_plate_map, double facing_rad)>
+      move_place;
 };
 
 /// What the states of the fire mission share. Confined to the mission thread.
@@ -54,13 +61,17 @@ class FireContext {
     }
   };
   std::optional<Aim> aim;
-  std::optional<Stamp> pumps_idle_since;  ///< while they should run
-  double sweep_started_s = 0.0;           ///< mission time at which the present sweep began
+  std::optional<PlaceCheck> place_check;           ///< of the present look
+  std::map<std::string, PlaceCheck> place_checks;  ///< newest of each place
+  std::optional<Stamp> pumps_idle_since;           ///< while they should run
+  double sweep_started_s = 0.0;  ///< mission time at which the present sweep began
 
   [[nodiscard]] WorldState& world() const { return devices.world.edit(); }
   /// @pre a place is selected.
   [[nodiscard]] FirePlace& place() const;
   [[nodiscard]] bool hasPlace() const { return devices.world.currentPlace() != nullptr; }
+  /// Where the current place's front is believed to be.
+  [[nodiscard]] Eigen::Isometry3d placeFront() const;
   /// For State::denyEntry.
   [[nodiscard]] std::string whyNoPlace() const;
   /// Done with the current place in this round.

@@ -4,6 +4,7 @@
 #include "robot/missions/fire/states/aim_hose.h"
 #include "robot/missions/fire/states/arm_blocked.h"
 #include "robot/missions/fire/states/arm_search.h"
+#include "robot/missions/fire/states/check_place.h"
 #include "robot/missions/fire/states/drive_blocked.h"
 #include "robot/missions/fire/states/drive_to_location.h"
 #include "robot/missions/fire/states/enter_building.h"
@@ -13,6 +14,7 @@
 #include "robot/missions/fire/states/next_location.h"
 #include "robot/missions/fire/states/nothing_found.h"
 #include "robot/missions/fire/states/park_arm.h"
+#include "robot/missions/fire/states/place_refused.h"
 #include "robot/missions/fire/states/protective_stop.h"
 #include "robot/missions/fire/states/pump_fault.h"
 #include "robot/missions/fire/states/safe_stop.h"
@@ -26,11 +28,11 @@ namespace kiln {
 
 using FireMachine =
     MachineOf<FireContext, EnterBuilding,  //
-              NextLocation, DriveToLocation, ArmSearch, HeatFound, ParkArm,
+              NextLocation, DriveToLocation, CheckPlace, ArmSearch, HeatFound, ParkArm,
               Finished,                                                 // search fire
               AimHose, StartPump, SpraySteady, SprayPattern, StopPump,  // extinguish
               LostTarget, PumpFault, ArmBlocked, DriveBlocked, ProtectiveStop, TimeNearlyOver,
-              NothingFound, SafeStop>;  // faults
+              PlaceRefused, NothingFound, SafeStop>;  // faults
 
 std::unique_ptr<Machine> makeFireMachine(FireContext& context, const std::string& mission_uuid) {
   MachineCore::Options options;

@@ -1,5 +1,6 @@
 #include "robot/missions/fire/fire_mission.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -11,6 +12,17 @@
 #include "robot/world_model/checkpoint_writer.h"
 
 namespace kiln {
+namespace {
+
+/// States in which the arm is, or will be at the next step, near the place.
+bool worksAtPlace(const std::string& state) {
+  for (const char* working :
+       {"ArmSearch", "AimHose", "StartPump", "SpraySteady", "SprayPattern", "StopPump"})
+    if (state == working) return true;
+  return false;
+}
+
+}  // namespace
 
 WorldState initialWorld(const ArenaMap& arena) {
   WorldState world;
@@ -58,6 +70,11 @@ struct FireMission::Impl {
     last_save = context.devices.clock.now();
     if (writer)
       writer->write(encodeCheckpoint({last_save, fsm, context.devices.world.state()}), durable);
+  }
+
+  void placeMoved(std::size_t index) {
+    const FirePlace& place = context.world().places[index];
+    context.devices.move_place(index, place.p_plate_map, place.facing_rad);
   }
 
   /// A full disk costs the resume, not the mission.
@@ -143,13 +160,58 @@ Result<void> FireMission::resumeFrom(const std::string& path, Stamp now) {
                                           m.context.world().tank_l_est);
   auto restored = m.machine->restore(loaded->fsm, now);
   if (!restored) m.context.world() = std::move(before);
+  for (std::size_t i = 0; i < places; ++i) m.placeMoved(i);
   return restored;
+}
+
+Result<void> FireMission::nudgePlace(const std::string& name, const Pose2& by) {
+  Impl& m = *impl_;
+  const auto& places = m.context.world().places;
+  const auto found = std::find_if(places.begin(), places.end(),
+                                  [&](const FirePlace& place) { return place.name == name; });
+  if (found == places.end())
+    return makeError(ErrorCode::InvalidInput, "there is no fire place '{}'", name);
+  const FsmStatus fsm = m.machine->status(m.context.devices.clock.now());
+  const bool current = &*found == m.context.devices.world.currentPlace();
+  if (current && fsm.running && !fsm.paused && worksAtPlace(fsm.state))
+    return makeError(ErrorCode::Refused, "the arm works before {} ({}); pause the mission first",
+                     name, fsm.state);
+  const auto index = static_cast<std::size_t>(found - places.begin());
+  if (auto moved = m.context.devices.world.nudgePlace(index, by); !moved) return moved;
+  m.placeMoved(index);
+  if (const auto check = m.context.place_checks.find(name); check != m.context.place_checks.end())
+    check->second.X_map_configured =
+        m.context.devices.arena.front(places[index].p_plate_map, places[index].facing_rad);
+  logger("mission.fire")
+      ->warn("{} was nudged by {:.2f}, {:.2f} m and {:.1f} deg", name, by.x_m, by.y_m,
+             by.yaw_rad * 180.0 / M_PI);
+  return {};
+}
+
+Result<void> FireMission::continueDespite(const std::string& subject,
+                                          const std::string& operator_name, Stamp now) {
+  Impl& m = *impl_;
+  const FsmStatus fsm = m.machine->status(now);
+  const FirePlace* place = m.context.devices.world.currentPlace();
+  if (fsm.state != "PlaceRefused" || !place || place->name != subject)
+    return makeError(ErrorCode::Refused, "no check objects to '{}' now", subject);
+  const ChangeStateResult changed =
+      m.machine->changeState({fsm.state, fsm.step, "ArmSearch"}, operator_name, now);
+  if (changed.outcome != ChangeStateOutcome::Ok)
+    return makeError(ErrorCode::Refused, "{}", changed.reason);
+  return {};
+}
+
+std::vector<PlaceCheck> FireMission::placeChecks() const {
+  std::vector<PlaceCheck> out;
+  for (const auto& [name, check] : impl_->context.place_checks) out.push_back(check);
+  return out;
 }
 
 std::vector<FirePlaceInfo> FireMission::places() const {
   std::vector<FirePlaceInfo> out;
   for (const FirePlace& place : impl_->context.world().places)
-    out.push_back({place.name, place.p_plate_map, place.facing_rad, place.visited});
+    out.push_back({place.name, place.p_plate_map, place.facing_rad, place.visited, place.nudge});
   return out;
 }
 

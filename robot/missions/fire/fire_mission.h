@@ -48,6 +48,16 @@ class FireMission {
   /// Waits until the newest checkpoint is on the disk; the destructor does so too.
   void flushCheckpoint();
 
+  /// The operator's correction of a place (NudgePlace; PlaceCheck::correction() proposes one). The
+  /// mission looks at the place anew. Refused while the arm works before it.
+  [[nodiscard]] Result<void> nudgePlace(const std::string& place, const Pose2& by);
+  /// The operator takes the responsibility: on from "Place refused" as configured. `subject` is the
+  /// place's name.
+  [[nodiscard]] Result<void> continueDespite(const std::string& subject,
+                                             const std::string& operator_name, Stamp now);
+  /// Newest comparison of each place, as configured and nudged, with the live cloud.
+  [[nodiscard]] std::vector<PlaceCheck> placeChecks() const;
+
   [[nodiscard]] std::vector<FirePlaceInfo> places() const;
   [[nodiscard]] std::vector<FireEstimate> fires()
       const;  ///< of each place, and the present sweep's

@@ -146,45 +146,51 @@ Eigen::Vector3d BoxLocator::search(const std::vector<Sample>& samples) const {
   return best;
 }
 
+/// Gauss-Newton: how the faces that are seen pull at (x, y, yaw, z).
+BoxLocator::Pull BoxLocator::pullAt(const std::vector<Sample>& samples, const Eigen::Vector4d& x,
+                                    double gate_m) const {
+  Pull pull;
+  const Eigen::Isometry3d X_front = poseOf(x), X_back = X_front.inverse();
+  for (const Sample& sample : samples) {
+    const Eigen::Vector3d p = X_back * sample.p;
+    const auto near = nearestFace(faces_, p, X_back * sample.p_sensor, gate_m);
+    if (!near) continue;
+    ++pull.inliers;
+    // Towards a face along its normal; beyond its edge straight to the edge.
+    const Eigen::Vector3d off = p - near->p;
+    const double d = near->distance_m;
+    Eigen::Vector3d direction = near->face->n;
+    if (d > 1e-4 && std::abs(off.dot(direction)) < 0.999 * d) direction = off / d;
+    const double r = off.dot(direction);
+    // dp/d(x, y, z) = -R^T, dp/dyaw = p turned by -90 deg.
+    const Eigen::Vector3d n_out = X_front.linear() * direction;
+    Eigen::Vector4d J;
+    J << -n_out.x(), -n_out.y(), direction.dot(Eigen::Vector3d(p.y(), -p.x(), 0)), -n_out.z();
+    const double c = 0.5 * gate_m;
+    const double weight = 1.0 / (1.0 + (r / c) * (r / c));  // Cauchy
+    pull.H += weight * J * J.transpose();
+    pull.g += weight * J * r;
+  }
+  return pull;
+}
+
 BoxLocator::Fit BoxLocator::refine(const std::vector<Sample>& samples,
                                    const Eigen::Vector3d& start) const {
+  const double noise2 = config_.noise_m * config_.noise_m;
+  const double height2 = config_.height_sigma_m * config_.height_sigma_m;
   Fit fit;
   fit.x << start, 0.0;
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     const double share = std::min(1.0, iteration / (0.6 * kIterations));
     const double gate =
         config_.coarse_gate_m * std::pow(config_.fine_gate_m / config_.coarse_gate_m, share);
-    Eigen::Matrix4d H = Eigen::Matrix4d::Zero();
-    Eigen::Vector4d g = Eigen::Vector4d::Zero();
-    const Eigen::Isometry3d X_front = poseOf(fit.x), X_back = X_front.inverse();
-    fit.inliers = 0;
-    for (const Sample& sample : samples) {
-      const Eigen::Vector3d p = X_back * sample.p;
-      const auto near = nearestFace(faces_, p, X_back * sample.p_sensor, gate);
-      if (!near) continue;
-      ++fit.inliers;
-      // Residual p - nearest, in front axes; towards the edge of a face both directions count.
-      const Eigen::Vector3d r_front = p - near->p;
-      const double d = near->distance_m;
-      Eigen::Vector3d direction = near->face->n;
-      if (d > 1e-4 && std::abs(r_front.dot(direction)) < 0.999 * d) direction = r_front / d;
-      const double r = r_front.dot(direction);
-      // dp/d(x, y, z) = -R^T, dp/dyaw = p rotated by -90 deg.
-      const Eigen::Vector3d n_out = X_front.linear() * direction;
-      Eigen::Vector4d J;
-      J << -n_out.x(), -n_out.y(), direction.dot(Eigen::Vector3d(p.y(), -p.x(), 0)), -n_out.z();
-      const double c = 0.5 * gate;
-      const double weight = 1.0 / (1.0 + (r / c) * (r / c));
-      H += weight * J * J.transpose();
-      g += weight * J * r;
-    }
-    const double noise2 = config_.noise_m * config_.noise_m;
-    const double height2 = config_.height_sigma_m * config_.height_sigma_m;
-    fit.information = H / noise2;
+    const Pull pull = pullAt(samples, fit.x, gate);
+    fit.inliers = pull.inliers;
+    fit.information = pull.H / noise2;
     fit.information(3, 3) += 1.0 / height2;
-    const Eigen::Matrix4d A = fit.information + 1e-6 * Eigen::Matrix4d::Identity();
-    Eigen::Vector4d b = g / noise2;
+    Eigen::Vector4d b = pull.g / noise2;
     b[3] += fit.x[3] / height2;
+    const Eigen::Matrix4d A = fit.information + 1e-6 * Eigen::Matrix4d::Identity();
     const Eigen::Vector4d step = -A.ldlt().solve(b);
     fit.x += step;
     if (share >= 1.0 && step.norm() < 1e-5) break;
@@ -215,12 +221,12 @@ double BoxLocator::coverage(const std::vector<Sample>& samples, const Eigen::Vec
 }
 
 void BoxLocator::judge(PlaceCheck& check) const {
-  const Pose2 off = check.correction();
+  const Pose2 off = check.correction(config_.sizes.recess);
   check.offset_m = std::hypot(off.x_m, off.y_m);
   check.yaw_offset_rad = off.yaw_rad;
   const double axis = std::max(std::abs(off.x_m), std::abs(off.y_m));
   const bool shifted = check.offset_m > config_.max_offset_m || axis > config_.max_axis_m;
-  const bool turned = std::abs(off.yaw_rad) > config_.max_yaw_deg * kDeg;
+  const bool turned = std::abs(check.yaw_offset_rad) > config_.max_yaw_deg * kDeg;
   check.verdict = shifted || turned ? PlaceVerdict::Misplaced : PlaceVerdict::Fits;
   check.reason =
       shifted || turned

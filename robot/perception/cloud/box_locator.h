@@ -54,6 +54,13 @@ class BoxLocator {
     Eigen::Matrix4d information = Eigen::Matrix4d::Zero();
     int inliers = 0;
   };
+  struct Pull {
+    Eigen::Matrix4d H = Eigen::Matrix4d::Zero();
+    Eigen::Vector4d g = Eigen::Vector4d::Zero();
+    int inliers = 0;
+  };
+  [[nodiscard]] Pull pullAt(const std::vector<Sample>& samples, const Eigen::Vector4d& x,
+                            double gate_m) const;
   [[nodiscard]] std::vector<Sample> gather(const Eigen::Isometry3d& X_map_front,
                                            const std::deque<ScanWindow::Entry>& scans) const;
   [[nodiscard]] float likelihood(const Eigen::Vector3d& p) const;

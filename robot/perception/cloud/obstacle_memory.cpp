@@ -38,7 +38,7 @@ ObstacleScan ObstacleMemory::observe(const Config& config, const PointCloud& sca
   out.stamp = scan_base.stamp;
   out.X_base_lidar = X_base_lidar;
   out.range_m.assign(kRings * kAzimuths, 0.0f);
-  const GroundProfile ground(config.ground, scan_base);
+  const LocalGround ground(config.ground, scan_base);
   const Eigen::Isometry3f X_lidar_base = X_base_lidar.inverse().cast<float>();
   for (std::size_t i = 0; i < scan_base.size(); ++i) {
     const Eigen::Vector3f p(scan_base.x[i], scan_base.y[i], scan_base.z[i]);

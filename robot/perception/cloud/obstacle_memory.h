@@ -4,7 +4,7 @@
 #include <unordered_map>
 
 #include "common/model/obstacle_cloud.h"
-#include "robot/perception/cloud/ground_profile.h"
+#include "robot/perception/cloud/local_ground.h"
 
 namespace kiln {
 
@@ -37,7 +37,7 @@ class ObstacleMemory {
     int max_misses = 2;           ///< beams that pass through until it is forgotten
     double see_through_m = 0.25;  ///< a beam must end so far behind
     int max_voxels = 60000;
-    GroundProfile::Config ground;
+    LocalGround::Config ground;
     void visit(ConfigArchive& a);
   };
   explicit ObstacleMemory(Config config) : config_(config) {}

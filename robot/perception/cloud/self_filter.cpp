@@ -1,6 +1,7 @@
 #include "robot/perception/cloud/self_filter.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace kiln {
@@ -17,6 +18,8 @@ Eigen::Vector3f halfSize(const BoxConfig& box, double margin) {
 void SelfFilter::Config::visit(ConfigArchive& a) {
   a.field("margin_m", margin_m, "m", 0, 0.5, "the robot's shapes are grown by this");
   a.field("slices", slices, "", 1, 100, "of a scan, each with its own joint angles");
+  a.field("edge_columns", edge_columns, "", 0, 20, "mixed pixels beside the robot's outline");
+  a.field("mixing_depth_m", mixing_depth_m, "m", 0, 5, "so far behind it they float");
 }
 
 SelfFilter::SelfFilter(const RobotGeometry& geometry, Config config)
@@ -25,7 +28,7 @@ SelfFilter::SelfFilter(const RobotGeometry& geometry, Config config)
       X_base_armbase_(geometry.X_base_armbase.pose()),
       X_lidar_flange_(geometry.X_flange_lidar.pose().inverse()) {}
 
-SelfFilter::Body SelfFilter::bodyAt(const Vector6d& q) const {
+SelfFilter::Body SelfFilter::bodyAt(const Vector6d& q, std::span<const BoxConfig> held) const {
   Body body;
   const auto joints = geometry_.arm.frames(q);
   const Eigen::Isometry3d X_lidar_armbase = X_lidar_flange_ * joints[5].inverse();
@@ -38,6 +41,7 @@ SelfFilter::Body SelfFilter::bodyAt(const Vector6d& q) const {
     body.boxes.push_back(box);
   };
   for (const BoxConfig& box : geometry_.head) addBox(box, X_lidar_flange_);
+  for (const BoxConfig& box : held) addBox(box, X_lidar_flange_ * geometry_.X_flange_tool.pose());
   for (const BoxConfig& box : geometry_.body)
     addBox(box, X_lidar_armbase * X_base_armbase_.inverse());
 
@@ -79,7 +83,55 @@ bool SelfFilter::contains(const Body& body, const Eigen::Vector3f& p) {
   return false;
 }
 
-SelfFilter::Output SelfFilter::filter(const PointCloud& scan, const ArmTrack& arm) const {
+std::vector<bool> SelfFilter::ownPoints(const PointCloud& scan, const std::vector<Body>& bodies,
+                                        float duration_s) const {
+  std::vector<bool> own(scan.size(), false);
+  if (bodies.empty()) return own;
+  const auto slices = static_cast<float>(bodies.size());
+  const float slices_per_s = duration_s > 0 ? slices / duration_s : 0.0f;
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    const Eigen::Vector3f p(scan.x[i], scan.y[i], scan.z[i]);
+    const float slice = std::clamp(scan.time_offset_s[i] * slices_per_s, 0.0f, slices - 1.0f);
+    const Body& body = bodies[static_cast<std::size_t>(slice)];
+    own[i] = p.squaredNorm() <= body.reach2 && contains(body, p);
+  }
+  markEdges(scan, own);
+  return own;
+}
+
+/// Points of a ring stand in the order of their time; a column is the time between two firings.
+void SelfFilter::markEdges(const PointCloud& scan, std::vector<bool>& own) const {
+  constexpr std::size_t kRings = 256;
+  constexpr float kColumn_s = 55.3e-6f;  // VLP-16 manual: one firing of all lasers
+  std::array<std::vector<std::uint32_t>, kRings> rings;
+  for (std::size_t i = 0; i < scan.size(); ++i)
+    rings[scan.ring[i]].push_back(static_cast<std::uint32_t>(i));
+  const auto rangeOf = [&](std::size_t i) {
+    return std::sqrt(scan.x[i] * scan.x[i] + scan.y[i] * scan.y[i] + scan.z[i] * scan.z[i]);
+  };
+  const float reach_s = (static_cast<float>(config_.edge_columns) + 0.5f) * kColumn_s;
+  const auto depth = static_cast<float>(config_.mixing_depth_m);
+  std::vector<std::uint32_t> mixed;
+  for (const auto& ring : rings) {
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      if (!own[ring[k]]) continue;
+      const float range = rangeOf(ring[k]), t = scan.time_offset_s[ring[k]];
+      const auto look = [&](std::size_t other) {
+        if (std::abs(scan.time_offset_s[ring[other]] - t) > reach_s) return false;
+        if (!own[ring[other]] && rangeOf(ring[other]) - range < depth) mixed.push_back(ring[other]);
+        return true;
+      };
+      for (std::size_t j = k; j-- > 0 && look(j);) {
+      }
+      for (std::size_t j = k + 1; j < ring.size() && look(j); ++j) {
+      }
+    }
+  }
+  for (const std::uint32_t i : mixed) own[i] = true;
+}
+
+SelfFilter::Output SelfFilter::filter(const PointCloud& scan, const ArmTrack& arm,
+                                      std::span<const BoxConfig> held) const {
   Output out;
   out.cloud.stamp = scan.stamp;
   out.cloud.seq = scan.seq;
@@ -92,26 +144,18 @@ SelfFilter::Output SelfFilter::filter(const PointCloud& scan, const ArmTrack& ar
   std::vector<Body> bodies;
   for (std::size_t i = 0; i < slices && !arm.empty(); ++i) {
     const double middle = duration * (static_cast<double>(i) + 0.5) / static_cast<double>(slices);
-    bodies.push_back(bodyAt(*arm.at(scan.stamp + fromSeconds(middle))));
+    bodies.push_back(bodyAt(*arm.at(scan.stamp + fromSeconds(middle)), held));
   }
-  const float slices_per_s = duration > 0 ? static_cast<float>(slices) / duration : 0.0f;
+  const std::vector<bool> own = ownPoints(scan, bodies, duration);
   for (std::size_t i = 0; i < scan.size(); ++i) {
-    const Eigen::Vector3f p(scan.x[i], scan.y[i], scan.z[i]);
-    const float range2 = p.squaredNorm();
-    if (!std::isfinite(range2)) {
+    if (!std::isfinite(scan.x[i] + scan.y[i] + scan.z[i])) {
       ++out.invalid;
-      continue;
+    } else if (own[i]) {
+      ++out.removed;
+    } else {
+      out.cloud.push(scan.x[i], scan.y[i], scan.z[i], scan.intensity[i], scan.ring[i],
+                     scan.time_offset_s[i]);
     }
-    if (!bodies.empty()) {
-      const float slice =
-          std::clamp(scan.time_offset_s[i] * slices_per_s, 0.0f, static_cast<float>(slices - 1));
-      const Body& body = bodies[static_cast<std::size_t>(slice)];
-      if (range2 <= body.reach2 && contains(body, p)) {
-        ++out.removed;
-        continue;
-      }
-    }
-    out.cloud.push(p.x(), p.y(), p.z(), scan.intensity[i], scan.ring[i], scan.time_offset_s[i]);
   }
   return out;
 }

@@ -14,7 +14,8 @@ namespace kiln {
 /// still picture in that frame.
 /// @param scan            in `lidar`; NaN points stay NaN. Order, intensity, ring and times are
 /// kept.
-/// @param X_target_lidar  not empty; sampled at 64 instants of the scan (1.6 ms at 10 Hz).
+/// @param X_target_lidar  not empty; taken at 65 instants of the scan (1.6 ms at 10 Hz) and
+/// interpolated between them at each point's own time.
 /// @param target          frames.h word of the result.
 [[nodiscard]] PointCloud undistort(const PointCloud& scan, const PoseTrack& X_target_lidar,
                                    const std::string& target);

@@ -4,7 +4,7 @@
 
 #include "robot/missions/common/route.h"
 #include "robot/missions/fire/states/arm_blocked.h"
-#include "robot/missions/fire/states/arm_search.h"
+#include "robot/missions/fire/states/check_place.h"
 #include "robot/missions/fire/states/drive_blocked.h"
 
 namespace kiln {
@@ -28,7 +28,7 @@ Transition DriveToLocation::execute() {
   if (drive.phase == SkillPhase::Done) {
     c.world().at_place = c.world().current_place;
     c.world().blocked_in_row = 0;
-    return transit<ArmSearch>().because("before " + c.place().name);
+    return transit<CheckPlace>().because("before " + c.place().name);
   }
   if (drive.phase == SkillPhase::Failed && c.drive.armFailed())
     return transit<ArmBlocked>(drive.text, ArmBlocked::While::Stowing).because(drive.text);

@@ -4,12 +4,13 @@
 
 namespace kiln {
 
-class ArmSearch;
+class CheckPlace;
 class DriveBlocked;
 class ArmBlocked;
 
 /// "UGV Drive to Location": the pre-determined pose roughly in front of the fire place.
-class DriveToLocation : public FireState<DriveToLocation, To<ArmSearch, DriveBlocked, ArmBlocked>> {
+class DriveToLocation
+    : public FireState<DriveToLocation, To<CheckPlace, DriveBlocked, ArmBlocked>> {
  public:
   static constexpr const char* kGroup = kSearchFire;
   static constexpr const char* kDoc = "Drives to the pose in front of the chosen fire place";

@@ -45,6 +45,14 @@ TEST(StateHistory, RefusesTimesOutsideButHoldsTheNewestForFiftyMilliseconds) {
   EXPECT_FALSE(history.at(at(560)).has_value());
 }
 
+TEST(StateHistory, GoesOnAsItMovedForTenMilliseconds) {
+  StateHistory history;
+  for (int t = 0; t <= 80; t += 8) history.add(sample(t, 0.001 * t, 0.002 * t, 0));
+  EXPECT_NEAR(history.at(at(86))->q[0], 0.086, 1e-12);
+  EXPECT_NEAR(history.at(at(86))->X_odom_base.x_m, 0.172, 1e-12);
+  EXPECT_NEAR(history.at(at(120))->q[0], 0.090, 1e-12) << "then it is held";
+}
+
 TEST(StateHistory, IgnoresSamplesThatAreNotNewer) {
   StateHistory history;
   history.add(sample(100, 1, 0, 0));

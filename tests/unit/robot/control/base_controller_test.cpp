@@ -65,6 +65,24 @@ TEST_F(BaseControllerTest, ScalesSpeedAndYawRateTogether) {
   EXPECT_NEAR(t.wz_radps, 0.2, 1e-6);
 }
 
+TEST_F(BaseControllerTest, NobodyDrivesTheFootprintOutOfTheFence) {
+  const auto fence =
+      Geofence::create({}, {{-3, -3}, {4, -3}, {4, 3}, {-3, 3}}, robot.length_m, robot.width_m);
+  ASSERT_TRUE(fence.has_value());
+  controller.setGeofence(std::make_shared<const Geofence>(*fence));
+  controller.placeInMap(Pose2{0.5, 0, 0});  // odometry began half a metre ahead
+  drive({1.0, 0, 0}, 8.0);
+  const double nose_m = 0.5 + controller.tracking().X_odom_base.x_m + 0.5 * robot.length_m;
+  EXPECT_LT(nose_m, 4.0);
+  EXPECT_GT(nose_m, 4.0 - 0.35) << "it may come near";
+  EXPECT_NE(controller.tracking().limited.find("geofence"), std::string::npos);
+  EXPECT_TRUE(controller.tracking().blocked.empty());
+  EXPECT_LE(max_decel, 2.0 + 1e-6);
+  drive({-0.5, 0, 0}, 2.0);
+  EXPECT_LT(controller.tracking().measured.vx_mps, -0.3) << "back is free";
+  EXPECT_TRUE(controller.tracking().limited.empty()) << controller.tracking().limited;
+}
+
 TEST_F(BaseControllerTest, TurnsTheWheelsFirstAndThenDrivesSideways) {
   const std::size_t before = base.sent().size();
   drive({0, 0.5, 0}, 3.0);

@@ -5,6 +5,7 @@
 
 #include "tests/support/fake_devices.h"
 #include "tests/unit/robot/planning/arm_motion/bob.h"
+#include "tests/unit/robot/skills/fake_surroundings.h"
 
 namespace kiln {
 namespace {
@@ -139,6 +140,44 @@ TEST_F(DriveToTest, StopEndsItAndItDoesNotGoOnByItself) {
   const Pose2 at = base.truePose();
   for (int k = 0; k < 250; ++k) tick();
   EXPECT_NEAR(base.truePose().x_m, at.x_m, 0.002);
+}
+
+TEST_F(DriveToTest, WaitsBeforeWhatStandsInTheWayAndGoesOnWhenItIsGone) {
+  TestSurroundings around(clock, [this] { return controller.tracking().X_odom_base; });
+  around.stand(3.2, 0.3, 0.6);
+  drive.setSurroundings(&around);
+  drive.start({{4, 0, 0}}, clock.now());
+  polling = true;
+  for (int k = 0; k < 12 * 250; ++k) tick();
+  ASSERT_EQ(status.phase, SkillPhase::Running) << status.text;
+  EXPECT_NE(status.text.find("path blocked by something 0."), std::string::npos) << status.text;
+  EXPECT_TRUE(controller.tracking().at_rest);
+  // The post's near side at 3.15 m, the robot's front 0.95 m ahead of its middle, a gap of 0.45 m.
+  EXPECT_LT(base.truePose().x_m, 3.15 - 0.95 - 0.3);
+  EXPECT_GT(base.truePose().x_m, 3.15 - 0.95 - 0.8);
+  EXPECT_LE(max_accel, 0.8 + 1e-6);
+  around.points.clear();
+  for (int k = 0; k < 15 * 250 && status.phase == SkillPhase::Running; ++k) tick();
+  EXPECT_EQ(status.phase, SkillPhase::Done) << status.failure_code << ": " << status.text;
+}
+
+TEST_F(DriveToTest, GivesUpBeforeWhatStaysAndDoesNotDriveBlindly) {
+  TestSurroundings around(clock, [this] { return controller.tracking().X_odom_base; });
+  drive.setSurroundings(&around);
+  around.stand(1.8, 0.0, 0.6);
+  const Stamp begin = clock.now();
+  run({{4, 0, 0}}, 60.0);
+  EXPECT_EQ(status.failure_code, "blocked") << status.text;
+  EXPECT_NEAR(toSeconds(clock.now() - begin), 31.0, 3.0);
+  around.points.clear();
+  drive.start({{4, 0, 0}}, clock.now());
+  polling = true;
+  for (int k = 0; k < 500; ++k) tick();
+  ASSERT_GT(controller.tracking().commanded.vx_mps, 0.2);
+  around.silent = true;
+  for (int k = 0; k < 750; ++k) tick();
+  EXPECT_TRUE(controller.tracking().at_rest);
+  EXPECT_NE(status.text.find("no LiDAR scan for"), std::string::npos) << status.text;
 }
 
 TEST_F(DriveToTest, CancelRampsToRest) {

@@ -4,6 +4,7 @@
 
 #include "tests/support/fake_devices.h"
 #include "tests/unit/robot/planning/arm_motion/bob.h"
+#include "tests/unit/robot/skills/fake_surroundings.h"
 
 namespace kiln {
 namespace {
@@ -96,6 +97,29 @@ TEST_F(MoveArmTest, SaysWhyAGoalIsRefused) {
   skill.startPose(flangeForCamera(robot, {0.0, 0.42, 0.85}), clock.now());
   EXPECT_EQ(run().failure_code, "in_collision") << status.text;
   EXPECT_LT((arm.state()->q - home()).norm(), 1e-6);
+}
+
+TEST_F(MoveArmTest, DoesNotMoveWhereTheLiveCloudShowsSomething) {
+  const Pose2 X_odom_base{4.0, -2.0, 0.7};
+  TestSurroundings around(clock, [&] { return X_odom_base; });
+  skill.setSurroundings(&around);
+  const Eigen::Isometry3d goal = flangeForCamera(robot, {1.25, 0.0, 1.3});
+  const Eigen::Vector3d at = toIsometry(X_odom_base) * Eigen::Vector3d(goal.translation());
+  around.stand(at.x(), at.y(), at.z());
+  const Vector6d before = arm.state()->q;
+  skill.startPose(goal, clock.now());
+  run();
+  EXPECT_EQ(status.failure_code, "obstacle") << status.text;
+  EXPECT_NE(status.text.find("something stands where the"), std::string::npos) << status.text;
+  EXPECT_LT((arm.state()->q - before).cwiseAbs().maxCoeff(), 1e-3);
+  around.points.clear();
+  skill.startPose(goal, clock.now());
+  EXPECT_EQ(run().phase, SkillPhase::Done) << status.text;
+  around.silent = true;
+  advance(3.0);
+  skill.startJoints(home(), clock.now());
+  EXPECT_EQ(run().failure_code, "obstacle");
+  EXPECT_NE(status.text.find("blindly"), std::string::npos) << status.text;
 }
 
 TEST_F(MoveArmTest, CheckAnswersWithoutMoving) {

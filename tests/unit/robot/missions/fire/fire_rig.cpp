@@ -42,6 +42,25 @@ std::optional<FireEstimate> FakeHeatSweep::estimate() const {
   return out;
 }
 
+void FakeSurroundings::beginPlaceCheck(const std::string& place,
+                                       const Eigen::Isometry3d& X_map_front) {
+  ++asked;
+  answer_.reset();
+  if (silent) return;
+  PlaceCheck check;
+  check.stamp = clock_.now();
+  check.place = place;
+  check.X_map_configured = X_map_front;
+  if (!first_.count(place)) first_[place] = X_map_front;
+  const Pose2 at = projectToGround(first_[place]);
+  check.X_map_sensed = makePose({at.x_m + misplaced.x_m, at.y_m + misplaced.y_m, 0.0},
+                                {0, 0, at.yaw_rad + misplaced.yaw_rad});
+  check.offset_m = std::hypot(check.correction().x_m, check.correction().y_m);
+  check.verdict = check.offset_m < 0.145 ? PlaceVerdict::Fits : PlaceVerdict::Misplaced;
+  check.reason = check.verdict == PlaceVerdict::Fits ? "fits" : place + " stands elsewhere";
+  answer_ = check;
+}
+
 FireRig::FireRig() : FireRig(Options{}) {}
 
 FireRig::FireRig(const Options& options)
@@ -67,8 +86,21 @@ void FireRig::build() {
   mission.reset();
   pumps = std::make_unique<PumpController>(PumpController::Config{}, pumps_device, stop);
   world = std::make_unique<WorldModel>(initialWorld(arena));
-  const FireDevices devices{clock, arena,      robot,  *world, base,
-                            arm,   arm_device, *pumps, sweep,  [this] { return base.pose(); }};
+  const FireDevices devices{
+      clock,
+      arena,
+      robot,
+      *world,
+      base,
+      arm,
+      arm_device,
+      *pumps,
+      sweep,
+      [this] { return base.pose(); },
+      surroundings,
+      [this](std::size_t place, const Eigen::Vector3d& p_plate_map, double facing_rad) {
+        arena.movePlace(place, p_plate_map, facing_rad);
+      }};
   mission =
       std::make_unique<FireMission>(devices, config, SprayCalibration{},
                                     FireMission::Options{"test-uuid", options_.checkpoint_path});

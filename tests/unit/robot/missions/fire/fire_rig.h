@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -23,6 +24,25 @@ class FakeHeatSweep final : public HeatSweep {
  private:
   int views_ = 0;
   Stamp stamp_;
+};
+
+/// A live cloud that says of every place what the test wants; nothing else stands around.
+class FakeSurroundings final : public Surroundings {
+ public:
+  explicit FakeSurroundings(const Clock& clock) : clock_(clock) {}
+  [[nodiscard]] ObstacleCloudPtr obstacles() const override { return nullptr; }
+  [[nodiscard]] Pose2 X_odom_base() const override { return {}; }
+  void beginPlaceCheck(const std::string& place, const Eigen::Isometry3d& X_map_front) override;
+  [[nodiscard]] std::optional<PlaceCheck> placeCheck() const override { return answer_; }
+
+  Pose2 misplaced;      ///< of every place, from its configured pose
+  bool silent = false;  ///< never answers
+  int asked = 0;
+
+ private:
+  const Clock& clock_;
+  std::optional<PlaceCheck> answer_;
+  std::map<std::string, Eigen::Isometry3d> first_;  ///< as configured
 };
 
 /// The fire mission in the nominal kitchen with fake motion, real pump control and a plate that
@@ -68,6 +88,7 @@ class FireRig {
   FakeBaseMotion base;
   StopLatch stop;
   FakeHeatSweep sweep;
+  FakeSurroundings surroundings{clock};
   std::unique_ptr<PumpController> pumps;
   std::unique_ptr<WorldModel> world;
   std::unique_ptr<FireMission> mission;

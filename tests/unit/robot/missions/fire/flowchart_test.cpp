@@ -21,11 +21,12 @@ std::vector<std::string> shortened(std::vector<std::string> states) {
 TEST(FireFlowchart, FireAtTheFirstPlaceIsSprayedAndTheSecondIsVisited) {
   FireRig rig;
   ASSERT_TRUE(rig.runToEnd()) << rig.state();
-  EXPECT_THAT(shortened(rig.visited()),
-              ElementsAre("EnterBuilding", "NextLocation", "DriveToLocation", "ArmSearch",
-                          "HeatFound", "AimHose", "StartPump", "SpraySteady", "SprayPattern",
-                          "StopPump", "NextLocation", "DriveToLocation", "ArmSearch", "HeatFound",
-                          "NextLocation", "ParkArm", "Finished"));
+  EXPECT_THAT(
+      shortened(rig.visited()),
+      ElementsAre("EnterBuilding", "NextLocation", "DriveToLocation", "CheckPlace", "ArmSearch",
+                  "HeatFound", "AimHose", "StartPump", "SpraySteady", "SprayPattern", "StopPump",
+                  "NextLocation", "DriveToLocation", "CheckPlace", "ArmSearch", "HeatFound",
+                  "NextLocation", "ParkArm", "Finished"));
   EXPECT_TRUE(rig.status().success);
   EXPECT_TRUE(rig.place(0).extinguished);
   EXPECT_TRUE(rig.place(1).visited);

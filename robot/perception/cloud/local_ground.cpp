@@ -1,4 +1,4 @@
-#include "robot/perception/cloud/ground_profile.h"
+#include "robot/perception/cloud/local_ground.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@ struct Cell {
 
 }  // namespace
 
-void GroundProfile::Config::visit(ConfigArchive& a) {
+void LocalGround::Config::visit(ConfigArchive& a) {
   a.field("sectors", sectors, "", 4, 720, "around the base");
   a.field("ring_m", ring_m, "m", 0.05, 5, "radial length of a cell");
   a.field("max_range_m", max_range_m, "m", 1, 100, "ground farther away is not looked at");
@@ -26,7 +26,7 @@ void GroundProfile::Config::visit(ConfigArchive& a) {
   a.field("bump_m", bump_m, "m", 0.02, 2, "above the line to the ground behind: an obstacle");
 }
 
-GroundProfile::GroundProfile(const Config& config, const PointCloud& scan_base) : config_(config) {
+LocalGround::LocalGround(const Config& config, const PointCloud& scan_base) : config_(config) {
   const auto sectors = static_cast<std::size_t>(config.sectors);
   const auto rings = static_cast<std::size_t>(std::ceil(config.max_range_m / config.ring_m));
   std::vector<Cell> cells(sectors * rings);
@@ -52,13 +52,13 @@ GroundProfile::GroundProfile(const Config& config, const PointCloud& scan_base) 
   }
 }
 
-std::size_t GroundProfile::sectorOf(double x, double y) const {
+std::size_t LocalGround::sectorOf(double x, double y) const {
   const double share = (std::atan2(y, x) + M_PI) / (2.0 * M_PI);
   return std::min(static_cast<std::size_t>(share * config_.sectors),
                   static_cast<std::size_t>(config_.sectors) - 1);
 }
 
-std::vector<GroundProfile::Node> GroundProfile::walk(const std::vector<Node>& cells) const {
+std::vector<LocalGround::Node> LocalGround::walk(const std::vector<Node>& cells) const {
   std::vector<Node> out{{0.0, 0.0}};
   const double climb = std::tan(config_.max_slope_deg * kDeg);
   for (const Node& next : cells) {
@@ -77,7 +77,7 @@ std::vector<GroundProfile::Node> GroundProfile::walk(const std::vector<Node>& ce
   return out;
 }
 
-double GroundProfile::groundAt(double x, double y) const {
+double LocalGround::groundAt(double x, double y) const {
   const std::vector<Node>& nodes = profile_[sectorOf(x, y)];
   const double r = std::hypot(x, y);
   const auto after =

@@ -12,7 +12,7 @@ namespace kiln {
 /// the profile begins under the wheels (z = 0) and goes out from one piece of visible ground to the
 /// next; a piece counts as ground when it is flat, not steeper than a robot could climb, and no
 /// bump on what lies behind it. Thread-compatible.
-class GroundProfile {
+class LocalGround {
  public:
   struct Config {
     int sectors = 48;
@@ -25,7 +25,7 @@ class GroundProfile {
     void visit(ConfigArchive& a);
   };
   /// @param scan_base  prepared scan in `base`; NaN points are skipped. An empty scan yields z = 0.
-  GroundProfile(const Config& config, const PointCloud& scan_base);
+  LocalGround(const Config& config, const PointCloud& scan_base);
   /// Height of the ground under (x, y) in base, metres.
   [[nodiscard]] double groundAt(double x, double y) const;
   [[nodiscard]] double heightOf(float x, float y, float z) const {

@@ -1,0 +1,74 @@
+#include "common/robot_model/robot_calibration.h"
+
+#include <cmath>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "common/config/resources.h"
+
+namespace kiln {
+namespace {
+
+constexpr double kDeg = M_PI / 180.0;
+
+RobotGeometry bob() {
+  RobotGeometry robot;
+  EXPECT_TRUE(loadConfig(*resourcePath("robot_model/bob.yaml"), robot).has_value());
+  return robot;
+}
+
+std::string written(const std::string& text) {
+  const std::string path = testing::TempDir() + "kiln_calibration_" +
+                           testing::UnitTest::GetInstance()->current_test_info()->name() + ".yaml";
+  std::ofstream(path) << text;
+  return path;
+}
+
+TEST(RobotCalibration, PosesSurviveTheFileAlsoWherePitchIsARightAngle) {
+  const RobotGeometry nominal = bob();
+  RobotCalibration calibration = RobotCalibration::of(nominal);
+  const Eigen::Isometry3d off =
+      makePose({0.004, -0.006, 0.003}, {0.3 * kDeg, -0.2 * kDeg, 0.4 * kDeg});
+  for (PoseConfig* pose : {&calibration.X_flange_lidar, &calibration.X_flange_thermal,
+                           &calibration.X_flange_nozzle, &calibration.X_base_operatorcamera})
+    *pose = poseConfig(pose->pose() * off);
+  calibration.lidar_range_bias_m[3] = -0.012;
+  const auto loaded = loadCalibrated(written(dumpConfig(calibration)), nominal);
+  ASSERT_TRUE(loaded.has_value()) << loaded.error();
+  for (const auto& [was, is] :
+       {std::pair{&nominal.X_flange_lidar, &loaded->X_flange_lidar},
+        std::pair{&nominal.X_flange_nozzle, &loaded->X_flange_nozzle},
+        std::pair{&nominal.X_base_operatorcamera, &loaded->X_base_operatorcamera}}) {
+    const Eigen::Isometry3d left = (was->pose() * off).inverse() * is->pose();
+    EXPECT_LT(left.translation().norm(), 1e-5);
+    EXPECT_LT(rotationAngle(left), 1e-4 * kDeg);
+  }
+  EXPECT_EQ(loaded->lidar_range_bias_m[3], -0.012);
+  EXPECT_EQ(loaded->X_flange_tool.xyz_m, nominal.X_flange_tool.xyz_m);
+}
+
+TEST(RobotCalibration, WhatIsNotInTheFileStaysNominal) {
+  const RobotGeometry nominal = bob();
+  const auto loaded = loadCalibrated(
+      written("X_flange_thermal: { xyz_m: [-0.055, 0.04, 0.13], rpy_deg: [0, 0, 0.2] }\n"),
+      nominal);
+  ASSERT_TRUE(loaded.has_value()) << loaded.error();
+  EXPECT_EQ(loaded->X_flange_thermal.xyz_m[0], -0.055);
+  EXPECT_EQ(loaded->X_flange_lidar.xyz_m, nominal.X_flange_lidar.xyz_m);
+}
+
+TEST(RobotCalibration, AFileOfAnotherRobotIsRefusedByName) {
+  const RobotGeometry nominal = bob();
+  const auto far = loadCalibrated(
+      written("X_flange_thermal: { xyz_m: [0.06, 0.04, 0.13], rpy_deg: [0, 0, 0] }\n"), nominal);
+  ASSERT_FALSE(far.has_value());
+  EXPECT_NE(far.error().message.find("the thermal camera is 120 mm"), std::string::npos)
+      << far.error().message;
+  EXPECT_FALSE(loadCalibrated(written("X_flange_lidar: { rpy_deg: [90, -80, 0] }\n"), nominal));
+  EXPECT_FALSE(loadCalibrated(written("X_flange_lidr: {}\n"), nominal));
+  EXPECT_FALSE(loadCalibrated("/nowhere/calibration.yaml", nominal));
+}
+
+}  // namespace
+}  // namespace kiln
