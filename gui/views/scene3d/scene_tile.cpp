@@ -9,6 +9,7 @@
 namespace kiln::gui {
 namespace {
 constexpr int kPanelOffset_px = 8;
+constexpr int kRoomForPanel_px = 640;  // in a smaller tile the list of layers would hide the robot
 
 QString pointsText(const PointCloudPtr& cloud) {
   if (!cloud) return SceneTile::tr("no cloud");
@@ -50,7 +51,17 @@ SceneTile::SceneTile(const Ui& ui, StationModels& models, RobotGeometry geometry
   refresh();
 }
 
-void SceneTile::toggleLayerPanel() { layers_->setVisible(!layers_->isVisible()); }
+void SceneTile::toggleLayerPanel() {
+  panel_chosen_ = true;
+  layers_->setVisible(layers_->isHidden());
+  refresh();
+}
+
+void SceneTile::resizeEvent(QResizeEvent* event) {
+  Tile::resizeEvent(event);
+  if (!panel_chosen_) layers_->setVisible(width() >= kRoomForPanel_px);
+  refresh();
+}
 
 void SceneTile::takeStatus() {
   if (const RobotStatus* status = models_.status.status()) state_.setStatus(*status);
@@ -82,6 +93,7 @@ void SceneTile::refresh() {
   QString info = canvas_->usesOpenGl()
                      ? tr("map · %1").arg(pointsText(snapshot.cloud))
                      : tr("top view, no OpenGL · %1").arg(pointsText(snapshot.cloud));
+  if (layers_->isHidden()) info = tr("F1 layers · ") + info;
   setInfo(refusal.isEmpty() ? info : refusal);
 }
 

@@ -22,6 +22,9 @@ class SceneTile : public Tile {
   /// Shows or hides the list of layers.
   void toggleLayerPanel();
 
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
+
  private:
   void takeStatus();
   void takeAges();
@@ -34,6 +37,7 @@ class SceneTile : public Tile {
   SceneState state_;
   SceneCanvas* canvas_;
   LayerPanel* layers_;
+  bool panel_chosen_ = false;  ///< the operator has shown or hidden it
   QButtonGroup* camera_buttons_;
 };
 
