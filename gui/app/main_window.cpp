@@ -86,8 +86,8 @@ QBoxLayout* MainWindow::makeMiddle(const Options& options) {
   auto* images = new QHBoxLayout(images_);
   images->setContentsMargins(0, 0, 0, 0);
   images->setSpacing(kGap_px);
-  images->addWidget(new ThermalTile(ui_, models_), 1);
-  images->addWidget(new CameraTile(ui_, models_), 1);
+  images->addWidget(new ThermalTile(ui_, models_), 6);
+  images->addWidget(new CameraTile(ui_, models_), 5);
   centre->addWidget(images_);
   middle->addLayout(centre, 1);
   middle->addWidget(makeRight());

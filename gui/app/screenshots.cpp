@@ -28,6 +28,7 @@ void Screenshots::takePending() {
 }
 
 void Screenshots::onState(const QString& name) {
+  if (name.isEmpty()) return;  // the robot has told of itself, but not of its mission
   // A state that passes more quickly than the delay gets its picture at its end.
   if (timer_.isActive() && !pending_.isEmpty()) save(pending_);
   pending_ = name;

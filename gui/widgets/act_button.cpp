@@ -12,6 +12,19 @@ namespace {
 constexpr int kPadX_px = 12;
 constexpr int kPadY_px = 7;
 constexpr double kRadius_px = 4.0;
+constexpr double kSmallest =
+    0.85;  // of a font that is too wide; more is not readable from a step away
+
+/// The font, a little smaller if the text is too wide for it.
+QFont fitted(QFont font, const QString& text, int width_px) {
+  const int needed = QFontMetrics(font).horizontalAdvance(text);
+  if (needed > width_px) {
+    font.setPointSizeF(font.pointSizeF() *
+                       std::max(kSmallest, 0.99 * width_px / static_cast<double>(needed)));
+  }
+  return font;
+}
+
 bool isPressKey(int key) { return key == Qt::Key_Return || key == Qt::Key_Enter; }
 }  // namespace
 
@@ -99,9 +112,9 @@ void ActButton::paintEvent(QPaintEvent*) {
       QPen(hasFocus() ? ui_.theme.colors().active_line : l.line, hasFocus() || lit() ? 2.0 : 1.2));
   painter.drawPath(outline);
 
-  const QFont title = ui_.theme.font(TextRole::Strong);
-  const QFont small = ui_.theme.font(TextRole::Small);
   const int text_width = width() - kPadX_px;
+  const QFont title = fitted(ui_.theme.font(TextRole::Strong), text(), text_width);
+  const QFont small = fitted(ui_.theme.font(TextRole::Small), subtext_, text_width);
   const int title_height = QFontMetrics(title).height();
   const int small_height = subtext_.isEmpty() ? 0 : QFontMetrics(small).height();
   int y = (height() - title_height - small_height) / 2;

@@ -79,11 +79,13 @@ void PerceptionJobs::dispatchScan(Stamp now, Localizer& localizer, bool moving) 
   const bool due = !last_fix_try_ || now - *last_fix_try_ >= fromSeconds(period_s - kHalfScan_s);
   const auto prior = due ? localizer.priorAt((*scan)->stamp) : std::nullopt;
   if (prior) last_fix_try_ = now;
-  executor_.post({"scan", fromSeconds(config_.scan_latency_s),
-                  [this, scan = *scan, prior](std::stop_token) -> Delivery {
-                    auto result = std::make_shared<ScanResult>(processScan(*scan, prior));
-                    return [this, result] { scan_results_.push(std::move(*result)); };
-                  }});
+  const bool posted =
+      executor_.post({"scan", fromSeconds(config_.scan_latency_s),
+                      [this, scan = *scan, prior](std::stop_token) -> Delivery {
+                        auto result = std::make_shared<ScanResult>(processScan(*scan, prior));
+                        return [this, result] { scan_results_.push(std::move(*result)); };
+                      }});
+  if (!posted) ++refused_jobs_;
 }
 
 PerceptionJobs::ScanResult PerceptionJobs::processScan(
@@ -114,16 +116,17 @@ void PerceptionJobs::dispatchThermal() {
   const auto image = images_.pop();
   if (!image) return;
   last_thermal_ = (*image)->stamp;
-  executor_.post(
+  const bool posted = executor_.post(
       {"heat", heat_latency_, [this, image = *image](std::stop_token) -> Delivery {
          auto result = std::make_shared<HeatResult>(HeatResult{image, detector_.detect(*image)});
          return [this, result] { heat_results_.push(std::move(*result)); };
        }});
+  if (!posted) ++refused_jobs_;
 }
 
 std::uint64_t PerceptionJobs::droppedFrames() const {
   return scans_.overwritten() + images_.dropped() + scan_results_.dropped() +
-         heat_results_.dropped();
+         heat_results_.dropped() + refused_jobs_;
 }
 
 }  // namespace kiln

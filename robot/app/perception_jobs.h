@@ -78,6 +78,7 @@ class PerceptionJobs {
   BoundedQueue<ScanResult> scan_results_{4, DropPolicy::Oldest};
   BoundedQueue<HeatResult> heat_results_{8, DropPolicy::Oldest};
   std::optional<Stamp> last_scan_, last_thermal_, last_fix_try_;
+  std::uint64_t refused_jobs_ = 0;  ///< frames whose kind was still being worked on
 };
 
 }  // namespace kiln

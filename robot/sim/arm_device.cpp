@@ -10,10 +10,10 @@ namespace kiln::sim {
 ArmDevice::ArmDevice(const ArmDeviceConfig& config, const RobotGeometry& robot, std::uint64_t seed)
     : config_(config), robot_(robot), noise_(seed, "arm force") {}
 
-std::string ArmDevice::refusal(Stamp now, const Vector6d& q, const Vector6d& qd) const {
-  // The time since the target that is being followed; one servo period of the slowest UR when there
-  // is none.
-  const double dt = following_ ? std::max(0.004, toSeconds(now - target_time_)) : 0.008;
+/// @param since_s  the target that is being followed was given so long ago.
+std::string ArmDevice::refusal(double since_s, const Vector6d& q, const Vector6d& qd) const {
+  // One servo period of the slowest UR when none is being followed.
+  const double dt = following_ ? std::max(0.004, since_s) : 0.008;
   const Vector6d& from = following_ ? target_q_ : q_ref_;
   for (int i = 0; i < 6; ++i) {
     if (!std::isfinite(q[i]) || !std::isfinite(qd[i]))
@@ -32,9 +32,12 @@ std::string ArmDevice::refusal(Stamp now, const Vector6d& q, const Vector6d& qd)
   return {};
 }
 
-std::string ArmDevice::servo(Stamp now, const Vector6d& q, const Vector6d& qd) {
+std::string ArmDevice::servo(Stamp now, const Vector6d& q, const Vector6d& qd,
+                             std::optional<Stamp> sent) {
   if (stopped_) return "servo target ignored: protective stop";
-  if (std::string why = refusal(now, q, qd); !why.empty()) {
+  Duration since = now - target_time_;
+  if (sent && target_sent_) since = std::max(since, *sent - *target_sent_);
+  if (std::string why = refusal(toSeconds(since), q, qd); !why.empty()) {
     if (carried_ && toSeconds(now - *carried_) <= config_.carry_grace_s) return {};
     protectiveStop();
     return why;
@@ -42,6 +45,7 @@ std::string ArmDevice::servo(Stamp now, const Vector6d& q, const Vector6d& qd) {
   target_q_ = q;
   target_qd_ = qd;
   target_time_ = now;
+  target_sent_ = sent;
   following_ = true;
   return {};
 }

@@ -17,8 +17,11 @@ class ArmDevice {
  public:
   ArmDevice(const ArmDeviceConfig& config, const RobotGeometry& robot, std::uint64_t seed);
 
+  /// @param sent  when the target was sent, by the sender's clock. Targets that waited in a queue
+  ///              while this machine was busy come in a bunch; their pace is that of the sending.
   /// @return empty, or why the target was refused.
-  std::string servo(Stamp now, const Vector6d& q, const Vector6d& qd);
+  std::string servo(Stamp now, const Vector6d& q, const Vector6d& qd,
+                    std::optional<Stamp> sent = std::nullopt);
   void releaseProtectiveStop();
   void protectiveStop();
   /// The robot was carried to its start: hold there, no stop latched. Targets that were under way
@@ -33,7 +36,7 @@ class ArmDevice {
   [[nodiscard]] ArmState report(Stamp now, const Physics& physics);
 
  private:
-  [[nodiscard]] std::string refusal(Stamp now, const Vector6d& q, const Vector6d& qd) const;
+  [[nodiscard]] std::string refusal(double since_s, const Vector6d& q, const Vector6d& qd) const;
   void advanceReference(Stamp now, double step_s);
 
   ArmDeviceConfig config_;
@@ -42,7 +45,7 @@ class ArmDevice {
   Vector6d q_ref_ = Vector6d::Zero(), qd_ref_ = Vector6d::Zero();
   Vector6d target_q_ = Vector6d::Zero(), target_qd_ = Vector6d::Zero();
   Stamp target_time_;
-  std::optional<Stamp> carried_;
+  std::optional<Stamp> target_sent_, carried_;
   bool following_ = false;
   bool stopped_ = false;
   Vector6d wrench_ = Vector6d::Zero();  ///< filtered, true, in arm_base orientation at the tool

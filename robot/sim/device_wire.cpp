@@ -51,6 +51,7 @@ Result<WorldCommands> fromProto(const v1::device::Advance& m) {
       c.arm->q[i] = m.arm().q_rad(i);
       c.arm->qd[i] = m.arm().qd_radps(i);
     }
+    if (m.arm().sent_ns() != 0) c.arm_sent = stampFromNanoseconds(m.arm().sent_ns());
   }
   if (m.has_base()) {
     if (m.base().wheels_size() != 4) {
@@ -76,6 +77,7 @@ Result<WorldCommands> fromProto(const v1::device::Advance& m) {
 void toProto(const WorldReport& report, v1::device::Report& m) {
   m.set_now_ns(toNanoseconds(report.now));
   m.set_seq(report.seq);
+  m.set_slipped_ns(report.slipped.count());
   for (int i = 0; i < 6; ++i) {
     m.mutable_arm()->add_q_rad(report.arm.q[i]);
     m.mutable_arm()->add_qd_radps(report.arm.qd[i]);

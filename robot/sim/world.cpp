@@ -205,7 +205,7 @@ void World::command(const WorldCommands& c) {
     ++w.resets;
     w.carryToStart();
   }
-  if (c.arm) note(w.arm.servo(w.now, c.arm->q, c.arm->qd));
+  if (c.arm) note(w.arm.servo(w.now, c.arm->q, c.arm->qd, c.arm_sent));
   if (c.base) note(w.base.write(w.now, *c.base));
   if (c.pumps) note(w.pumps.write(w.now, *c.pumps));
 }

@@ -22,6 +22,7 @@ struct SensorRequest {
 /// Any subset of commands; an absent one lets that device's watchdog count on.
 struct WorldCommands {
   std::optional<ArmServo> arm;
+  std::optional<Stamp> arm_sent;  ///< by the sender's clock
   std::optional<WheelCommands> base;
   std::optional<std::array<double, 2>> pumps;
   std::optional<SensorRequest> sensors;
@@ -41,6 +42,7 @@ struct WorldReport {
   std::vector<RgbImagePtr> colour;
   std::uint32_t resets = 0;
   std::string refused;
+  Duration slipped{};  ///< how long the world's clock has waited for a slow machine, in total
 };
 
 struct Collision {

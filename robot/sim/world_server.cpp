@@ -84,8 +84,9 @@ struct WorldServer::Impl {
   std::unique_ptr<PictureThread> pictures;
   std::ofstream trace_file;
   Stamp next_trace;
-  Stamp next_report;  ///< clock time
-  Duration offset{};  ///< clock - world
+  Stamp next_report;   ///< clock time
+  Duration offset{};   ///< clock - world
+  Duration slipped{};  ///< how long the world has waited for this machine, in total
   std::uint64_t lost_reports = 0;
 };
 
@@ -242,6 +243,7 @@ void WorldServer::Impl::runRealTime() {
   Stamp target = now - offset;
   if (target - world.now() > kSlip) {
     offset += target - world.now() - kSlip;
+    slipped += target - world.now() - kSlip;
     target = world.now() + kSlip;
   }
   WorldReport report = world.advance(std::max(target, world.now()));
@@ -251,6 +253,7 @@ void WorldServer::Impl::runRealTime() {
     pictures->render(std::move(*due));
   }
   if (pictures) report.colour = pictures->finished();
+  report.slipped = slipped;
   publish(report);
   trace();
 }

@@ -35,6 +35,7 @@ Result<void> SimArm::servo(const ArmServo& target) {
       m.mutable_arm()->add_q_rad(target.q[i]);
       m.mutable_arm()->add_qd_radps(target.qd[i]);
     }
+    m.mutable_arm()->set_sent_ns(toNanoseconds(clock_.now()));
   });
 }
 

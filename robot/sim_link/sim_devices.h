@@ -43,7 +43,7 @@ class Outbox {
 
 class SimArm final : public Arm {
  public:
-  explicit SimArm(Outbox& outbox) : outbox_(outbox) {}
+  SimArm(Outbox& outbox, const Clock& clock) : outbox_(outbox), clock_(clock) {}
   [[nodiscard]] std::optional<ArmState> state() const override { return latest.peek(); }
   Result<void> servo(const ArmServo& target) override;
   Result<void> releaseProtectiveStop() override;
@@ -51,6 +51,7 @@ class SimArm final : public Arm {
 
  private:
   Outbox& outbox_;
+  const Clock& clock_;
 };
 
 class SimDriveBase final : public DriveBase {

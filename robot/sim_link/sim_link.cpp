@@ -74,7 +74,7 @@ struct SimLink::Impl {
   WakeEvent wake;
   Outbox outbox;
   SensorSwitch sensors{outbox};
-  SimArm arm{outbox};
+  SimArm arm{outbox, clock};
   SimDriveBase base{outbox};
   SimPumps pumps{outbox};
   SimArena arena{outbox};
@@ -167,7 +167,8 @@ void SimLink::Impl::handle(const v1::device::ToRobot& message) {
     return;
   }
   if (!message.has_report()) return;
-  clock_map.observe(clock.now(), stampFromNanoseconds(message.report().now_ns()));
+  clock_map.observe(clock.now(), stampFromNanoseconds(message.report().now_ns()),
+                    Duration(message.report().slipped_ns()));
   takeReport(message.report(), clock_map.shift());
 }
 
@@ -175,14 +176,15 @@ void SimLink::Impl::handle(const v1::device::ToRobot& message) {
 void SimLink::Impl::watchSilence() {
   const Stamp now = clock.now();
   const Stamp heard = std::max(opened, last_report.peek().value_or(opened));
-  if (toSeconds(now - heard) < config.silence_s) return;
-  if (outbox.open()) {
+  if (outbox.open() && toSeconds(now - heard) >= config.silence_s) {
     logger("sim_link")
         ->error("no report from kiln-sim for {:.1f} s; commands are refused until it answers",
                 config.silence_s);
     outbox.setOpen(false);
   }
-  if (now - last_hello < kHelloAgain) return;
+  // A world that was only slow reports again before it has heard a hello: knock all the same, only
+  // its answer opens the door.
+  if (outbox.open() || now - last_hello < kHelloAgain) return;
   last_hello = now;
   v1::device::ToWorld out;
   *out.mutable_hello() = hello();

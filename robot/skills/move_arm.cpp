@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <variant>
 
 #include <fmt/format.h>
 
+#include "common/core/log.h"
 #include "robot/planning/arm_motion/joint_trajectory.h"
 #include "robot/planning/arm_motion/ur_inverse.h"
 
@@ -15,6 +17,10 @@ namespace {
 
 constexpr double kDeg = M_PI / 180.0;
 constexpr double kAnswerTime = 0.1;  // s; until the control thread has seen the first setpoint
+constexpr double kCarriedOn = 0.06;  // s; the controller follows a setpoint on for so long
+// Part of the guard force: an arm that lags while this much pushes against it may have met
+// something.
+constexpr double kTouched = 0.5;
 
 struct PoseGoal {
   Eigen::Isometry3d X_base_flange;
@@ -45,6 +51,8 @@ void MoveArm::Config::visit(ConfigArchive& a) {
   a.field("goal_tolerance_deg", goal_tolerance_deg, "deg", 0.05, 10, "measured joints at the end");
   a.field("settle_timeout_s", settle_timeout_s, "s", 0.2, 20, "to rest before and after");
   a.field("planning_slice", planning_slice, "", 1, 10000, "search iterations in one poll");
+  a.field("max_resumes", max_resumes, "", 0, 100, "of one move, when nothing was touched");
+  a.field("max_gap_s", max_gap_s, "s", 0.06, 5, "between two polls; longer interrupts the move");
   a.section("planner", planner, "search for a way around obstacles");
   a.section("cartesian", cartesian, "straight lines");
   a.section("watch", watch, "live cloud where the arm would pass");
@@ -74,8 +82,36 @@ struct MoveArm::Impl {
     stage = Stage::Settling;
     status = {SkillPhase::Running, 0.0, "coming to rest", ""};
     trajectory.reset();
+    resumes = 0;
     stage_began = last = now;
     hold(now);
+  }
+
+  /// Again from where the arm comes to rest, if nothing was touched and not too often.
+  SkillStatus interrupted(const ArmTracking& tracking, std::string why, Stamp now) {
+    const bool touched =
+        config.guard_force_n > 0.0 && tracking.contact_force_n > kTouched * config.guard_force_n;
+    if (touched || resumes >= config.max_resumes) {
+      if (resumes > 0) why += fmt::format(" (after {} new tries)", resumes);
+      return fail("tracking", std::move(why), now);
+    }
+    ++resumes;
+    dropPosesBehind();
+    logger("arm")->info("interrupted: {}; going on", why);
+    status.text = "interrupted: " + why;
+    enter(Stage::Settling, now);
+    hold(now);
+    return status;
+  }
+
+  void dropPosesBehind() {
+    auto* lines = std::get_if<LineGoal>(&goal);
+    if (!lines || !trajectory) return;
+    const double covered = trajectory->covered(toSeconds(streamed - stage_began));
+    const std::size_t behind =
+        posesBehind(config.cartesian, robot.X_base_flange(q_start), lines->X_base_flange, covered);
+    lines->X_base_flange.erase(lines->X_base_flange.begin(),
+                               lines->X_base_flange.begin() + static_cast<std::ptrdiff_t>(behind));
   }
 
   void hold(Stamp now) {
@@ -100,7 +136,7 @@ struct MoveArm::Impl {
 
   SkillStatus poll(Stamp now) {
     if (status.phase != SkillPhase::Running) return status;
-    last = now;
+    const double gap_s = toSeconds(now - std::exchange(last, now));
     const ArmTracking tracking = controller.tracking();
     if (tracking.protective_stop) return fail("protective_stop", tracking.blocked, now);
     if (tracking.stop_latched) return fail("stopped", tracking.blocked, now);
@@ -110,7 +146,7 @@ struct MoveArm::Impl {
       case Stage::Planning:
         return search(now);
       case Stage::Moving:
-        return move(tracking, now);
+        return move(tracking, gap_s, now);
       case Stage::Idle:
         break;
     }
@@ -235,6 +271,7 @@ struct MoveArm::Impl {
       if (!why.empty()) return fail("obstacle", std::move(why), now);
     }
     trajectory.emplace(std::move(paths), limits);
+    streamed = now;
     enter(Stage::Moving, now);
     stream(now);
     return status;
@@ -249,13 +286,18 @@ struct MoveArm::Impl {
     setpoint.qd = point.qd;
     setpoint.stop_force_n = config.guard_force_n;
     controller.setpoint(setpoint);
+    streamed = now;
   }
 
-  SkillStatus move(const ArmTracking& tracking, Stamp now) {
-    const double t = toSeconds(now - stage_began);
+  SkillStatus move(const ArmTracking& tracking, double gap_s, Stamp now) {
     if (tracking.contact_stop) return fail("contact", tracking.blocked, now);
+    if (gap_s > config.max_gap_s)
+      return interrupted(tracking, fmt::format("no setpoint for {:.2f} s", gap_s), now);
+    // The controller has stopped following by then: the reference waits, it does not jump ahead.
+    if (gap_s > kCarriedOn) stage_began += fromSeconds(gap_s - kCarriedOn);
+    const double t = toSeconds(now - stage_began);
     const bool answered = t > kAnswerTime;
-    if (answered && !tracking.blocked.empty()) return fail("tracking", tracking.blocked, now);
+    if (answered && !tracking.blocked.empty()) return interrupted(tracking, tracking.blocked, now);
     if (answered && now - tracking.stamp > std::chrono::milliseconds(500)) {
       return fail("timeout", "the control loop does not answer", now);
     }
@@ -270,8 +312,8 @@ struct MoveArm::Impl {
       stage = Stage::Idle;
       status = {SkillPhase::Done, 1.0, "there", ""};
     } else if (t > trajectory->duration() + config.settle_timeout_s) {
-      return fail("tracking", fmt::format("the arm stays {:.1f} deg off its goal", off / kDeg),
-                  now);
+      return interrupted(tracking, fmt::format("the arm stays {:.1f} deg off its goal", off / kDeg),
+                         now);
     }
     return status;
   }
@@ -300,7 +342,8 @@ struct MoveArm::Impl {
   ArmPlanner planner;
   Goal goal = Vector6d(Vector6d::Zero());
   Stage stage = Stage::Idle;
-  Stamp stage_began, last;
+  int resumes = 0;
+  Stamp stage_began, last, streamed;
   Vector6d q_start = Vector6d::Zero();
   std::optional<JointTrajectory> trajectory;
   SkillStatus status;

@@ -19,9 +19,11 @@ namespace kiln {
 /// self-collision, collision with base, tanks and the known scene, then a jerk-limited joint or
 /// straight-line trajectory that is streamed as setpoints at 50 Hz. Guarded by default: stops on
 /// unexpected force. Starting a move holds the arm first (which also ends a latched contact stop)
-/// and plans from rest. Failure codes: unreachable, in_collision, obstacle (the live cloud shows
-/// something where the arm would pass), contact, protective_stop,
-/// tracking, timeout, stopped.
+/// and plans from rest. A move that something else than a contact interrupts (a loop that slipped,
+/// a state that came late, an arm that lags) is taken up again from where the arm rests, a bounded
+/// number of times; of a path only what is left. Failure codes: unreachable, in_collision, obstacle
+/// (the live cloud shows something where the arm would pass), contact, protective_stop, tracking,
+/// timeout, stopped.
 class MoveArm final : public ArmMotion {
  public:
   struct Config {
@@ -35,6 +37,8 @@ class MoveArm final : public ArmMotion {
     double goal_tolerance_deg = 0.5;  ///< measured joints at the end
     double settle_timeout_s = 2.0;    ///< to come to rest before and after
     int planning_slice = 10;          ///< search iterations in one poll
+    int max_resumes = 4;              ///< of one move after interruptions without a contact
+    double max_gap_s = 0.25;          ///< between two polls; a longer one interrupts the move
     ArmPlanner::Config planner;
     CartesianPathConfig cartesian;
     ArmWatchConfig watch;

@@ -8,8 +8,7 @@
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
 
-#include "gui/views/scene3d/scene_actor.h"
-#include "gui/views/scene3d/vtk_shapes.h"
+#include "gui/views/scene3d/rebuilt_actor.h"
 
 namespace kiln::gui {
 namespace {
@@ -89,51 +88,31 @@ class PlacesActor final : public SceneActor {
 };
 
 /// Estimated fires: a core at the estimate and the ellipsoid of two standard deviations.
-class FireActor final : public SceneActor {
+class FireActor final : public RebuiltActor {
  public:
-  explicit FireActor(vtkRenderer& renderer) : renderer_(renderer) {}
-  ~FireActor() override { clear(); }
+  explicit FireActor(vtkRenderer& renderer) : RebuiltActor(renderer, SceneLayer::Fire) {}
 
-  void update(const SceneSnapshot& snapshot, const SceneColors& colors) override {
-    const LayerState& layer = snapshot.layer(SceneLayer::Fire);
-    if (revision_ == layer.revision && dark_ == colors.dark) return;
-    revision_ = layer.revision;
-    dark_ = colors.dark;
-    clear();
-    if (!layer.visible) return;
+ protected:
+  void build(const SceneSnapshot& snapshot, Freshness freshness,
+             const SceneColors& colors) override {
     for (const FireEstimate& fire : snapshot.fires)
-      if (fire.p_map.allFinite()) add(fire, layer.freshness, colors);
+      if (fire.p_map.allFinite()) addFire(fire, freshness, colors);
   }
 
  private:
-  void add(const FireEstimate& fire, Freshness freshness, const SceneColors& colors) {
-    auto core = addActor(renderer_, sphereMesh(kCoreRadius_m));
-    setColor(*core, agedColor(colors.fire, freshness, colors));
-    core->GetProperty()->SetAmbient(0.6);
-    setPose(*core, Eigen::Isometry3d(Eigen::Translation3d(fire.p_map)));
-    actors_.push_back(core);
-    const Ellipsoid e = ellipsoidOf(fire.covariance);
-    if (e.half_axes.maxCoeff() <= 0.0) return;
+  void addFire(const FireEstimate& fire, Freshness freshness, const SceneColors& colors) {
     Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
     X.translation() = fire.p_map;
+    const auto core = add(sphereMesh(kCoreRadius_m), agedColor(colors.fire, freshness, colors), X);
+    core->GetProperty()->SetAmbient(0.6);
+    const Ellipsoid e = ellipsoidOf(fire.covariance);
+    if (e.half_axes.maxCoeff() <= 0.0) return;
     const Eigen::Vector3d scale = (ellipsoidExaggeration(fire) * e.half_axes).cwiseMax(0.005);
     X.linear() = e.axes * scale.asDiagonal();
-    auto shell = addActor(renderer_, sphereMesh(1.0));
-    setColor(*shell, agedColor(colors.fire_uncertainty, freshness, colors));
+    const auto shell =
+        add(sphereMesh(1.0), agedColor(colors.fire_uncertainty, freshness, colors), X);
     shell->GetProperty()->SetOpacity(kEllipsoidOpacity);
-    setPose(*shell, X);
-    actors_.push_back(shell);
   }
-
-  void clear() {
-    for (auto& actor : actors_) renderer_.RemoveActor(actor);
-    actors_.clear();
-  }
-
-  vtkRenderer& renderer_;
-  std::uint64_t revision_ = ~std::uint64_t{0};
-  bool dark_ = true;
-  std::vector<vtkSmartPointer<vtkActor>> actors_;
 };
 
 }  // namespace

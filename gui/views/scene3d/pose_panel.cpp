@@ -68,8 +68,9 @@ void PosePanel::refresh() {
 
 void PosePanel::restyle() {
   const Palette& p = ui_.theme.colors();
-  setStyleSheet(QStringLiteral("#overlay { background: %1; border: 1px solid %2; border-radius: 4px; }")
-                    .arg(p.panel.name(), p.manual.name()));
+  setStyleSheet(
+      QStringLiteral("#overlay { background: %1; border: 1px solid %2; border-radius: 4px; }")
+          .arg(p.panel.name(), p.manual.name()));
 }
 
 }  // namespace kiln::gui

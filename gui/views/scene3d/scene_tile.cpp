@@ -15,6 +15,7 @@ namespace kiln::gui {
 namespace {
 constexpr int kPanelOffset_px = 8;
 constexpr double kPlaceDistance_m = 7.0;  // the picture is then about four metres high
+constexpr int kRoomForPanel_px = 640;  // in a smaller tile the list of layers would hide the robot
 
 QString pointsText(const PointCloudPtr& cloud) {
   if (!cloud) return SceneTile::tr("no cloud");
@@ -80,7 +81,17 @@ SceneTile::SceneTile(const Ui& ui, StationModels& models, RobotGeometry geometry
   refresh();
 }
 
-void SceneTile::toggleLayerPanel() { layers_->setVisible(!layers_->isVisible()); }
+void SceneTile::toggleLayerPanel() {
+  panel_chosen_ = true;
+  layers_->setVisible(layers_->isHidden());
+  refresh();
+}
+
+void SceneTile::resizeEvent(QResizeEvent* event) {
+  Tile::resizeEvent(event);
+  if (!panel_chosen_) layers_->setVisible(width() >= kRoomForPanel_px);
+  refresh();
+}
 
 void SceneTile::takeMap() {
   state_.setMap(models_.map.layer());
@@ -185,6 +196,7 @@ void SceneTile::refresh() {
   QString info = canvas_->usesOpenGl()
                      ? tr("live %1").arg(pointsText(snapshot.cloud))
                      : tr("top view, no OpenGL · %1").arg(pointsText(snapshot.cloud));
+  if (layers_->isHidden()) info = tr("F1 layers · ") + info;
   setInfo(refusal.isEmpty() ? info : refusal);
 }
 

@@ -36,6 +36,9 @@ class SceneTile : public Tile {
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
 
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
+
  private:
   void takeMap();
   void takeIntent();
@@ -54,6 +57,7 @@ class SceneTile : public Tile {
   SceneState state_;
   SceneCanvas* canvas_;
   LayerPanel* layers_;
+  bool panel_chosen_ = false;  ///< the operator has shown or hidden it
   QButtonGroup* camera_buttons_;
   PosePlacer placer_;
   PlaceNudge nudge_;

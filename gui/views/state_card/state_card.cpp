@@ -8,6 +8,7 @@ namespace kiln::gui {
 namespace {
 constexpr int kMaxExits = 4;
 constexpr int kExitsBesideRelease = 2;  // the release needs the room
+constexpr int kExitsInOneColumn = 2;    // more stand two a row, and their texts are shorter
 constexpr double kInputAmber_s = 0.5;
 constexpr double kInputRed_s = 2.0;
 constexpr double kInputShown_s = 0.005;
@@ -162,9 +163,14 @@ void StateCard::refreshExits() {
       auto* button = new ActButton(ui_, models_.fsm.label(to));
       button->setSubtext(QString::fromStdString(edge.consequence));
       connect(button, &QAbstractButton::clicked, this, [this, to] { jump_.pick(to); });
-      const int n = static_cast<int>(exits_.size());
-      exits_grid_->addWidget(button, n / 2, n % 2);
       exits_.push_back(button);
+    }
+    const int count = static_cast<int>(exits_.size());
+    const int columns = count <= kExitsInOneColumn ? 1 : 2;
+    for (int n = 0; n < count; ++n) {
+      const bool alone = columns == 2 && n == count - 1 && n % 2 == 0;
+      exits_grid_->addWidget(exits_[static_cast<std::size_t>(n)], n / columns, n % columns, 1,
+                             columns == 1 || alone ? 2 : 1);
     }
   }
   QString why;

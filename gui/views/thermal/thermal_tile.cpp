@@ -9,6 +9,9 @@ namespace {
 
 constexpr double kFrozen_s = 1.0;  // longer than the camera's own shutter pause of 0.6 s
 constexpr int kColumn_px = 112;
+// A tile narrower than this keeps its room for the picture: numbers without words beside it.
+constexpr int kNarrow_px = 400;
+constexpr int kNarrowColumn_px = 76;
 
 const HeatBlob* hottestAccepted(const HeatDetections* heat) {
   if (!heat || !heat->usable) return nullptr;
@@ -50,7 +53,7 @@ ThermalTile::ThermalTile(const Ui& ui, StationModels& models, QWidget* parent)
           [this](const QString& reading) { reading_->setText(reading); });
   connect(scale_, &QToolButton::toggled, this, [this](bool automatic) {
     view_->setAutomaticScale(automatic);
-    scale_->setText(automatic ? tr("scale: AUTO") : tr("scale: fixed"));
+    nameScale();
     restyle();
   });
   restyle();
@@ -58,9 +61,9 @@ ThermalTile::ThermalTile(const Ui& ui, StationModels& models, QWidget* parent)
 }
 
 QWidget* ThermalTile::makeColumn() {
-  auto* column = new QWidget;
-  column->setFixedWidth(kColumn_px);
-  auto* layout = new QVBoxLayout(column);
+  column_ = new QWidget;
+  column_->setFixedWidth(kColumn_px);
+  auto* layout = new QVBoxLayout(column_);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(3);
   peak_caption_ = new QLabel(tr("Peak"));
@@ -75,13 +78,27 @@ QWidget* ThermalTile::makeColumn() {
   layout->addStretch(1);
   scale_ = new QToolButton;
   scale_->setCheckable(true);
-  scale_->setText(tr("scale: fixed"));
+  nameScale();
   scale_->setToolTip(
       tr("fixed 20 to 150 °C, or fitted to each picture (then the same colour means another "
          "temperature)"));
   scale_->setFocusPolicy(Qt::NoFocus);
   layout->addWidget(scale_);
-  return column;
+  return column_;
+}
+
+void ThermalTile::resizeEvent(QResizeEvent* event) {
+  Tile::resizeEvent(event);
+  const bool narrow = width() < kNarrow_px;
+  column_->setFixedWidth(narrow ? kNarrowColumn_px : kColumn_px);
+  view_->setCompact(narrow);
+  for (QLabel* label : {box_, rejected_, reading_}) label->setVisible(!narrow);
+  nameScale();
+}
+
+void ThermalTile::nameScale() {
+  const QString kind = scale_->isChecked() ? tr("AUTO") : tr("fixed");
+  scale_->setText(width() < kNarrow_px ? kind : tr("scale: %1").arg(kind));
 }
 
 QString ThermalTile::refusal() const {

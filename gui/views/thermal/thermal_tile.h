@@ -19,11 +19,15 @@ class ThermalTile : public Tile {
   /// Why the picture must not be read, in one sentence; empty if it may.
   [[nodiscard]] QString refusal() const;
 
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
+
  private:
   void refresh();
   void refreshAge();
   void describe();
   void restyle();
+  void nameScale();
   QWidget* makeColumn();
 
   Ui ui_;
@@ -31,6 +35,7 @@ class ThermalTile : public Tile {
   ThermalView* view_;
   QLabel *peak_caption_, *peak_, *box_, *rejected_, *reading_;
   QToolButton* scale_;
+  QWidget* column_ = nullptr;
 };
 
 }  // namespace kiln::gui

@@ -9,6 +9,7 @@ namespace kiln::gui {
 namespace {
 
 constexpr int kBar_px = 13, kBarGap_px = 8, kBarText_px = 84;
+constexpr int kBarNumber_px = 34;           // in a narrow tile: bare numbers
 constexpr std::uint64_t kSeqTolerance = 6;  // detections trail the picture by a few frames at most
 
 QRectF blobRect(const HeatBlob& blob, const QRectF& picture, double pixel) {
@@ -59,12 +60,19 @@ void ThermalView::recolor() {
   colors_ = colorize(*image_, scale_, map_);
 }
 
+int ThermalView::barText() const { return compact_ ? kBarNumber_px : kBarText_px; }
+
+void ThermalView::setCompact(bool compact) {
+  if (compact == compact_) return;
+  compact_ = compact;
+  update();
+}
+
 QRectF ThermalView::pictureRect() const {
   const int w = image_ && image_->width > 0 ? image_->width : 160,
             h = image_ && image_->height > 0 ? image_->height : 120;
-  const double pixel =
-      std::min(static_cast<double>(width() - kBar_px - kBarGap_px - kBarText_px) / w,
-               static_cast<double>(height()) / h);
+  const double pixel = std::min(static_cast<double>(width() - kBar_px - kBarGap_px - barText()) / w,
+                                static_cast<double>(height()) / h);
   return {0.0, 0.5 * (height() - pixel * h), pixel * w, pixel * h};
 }
 
@@ -144,17 +152,20 @@ void ThermalView::paintBar(QPainter& painter, const QRectF& picture) const {
   }
   const auto text = [&](double y, const QString& s, const QColor& color, Qt::Alignment align) {
     painter.setPen(color);
-    painter.drawText(QRectF(bar.right() + 5, y - 8, kBarText_px, 16), align | Qt::AlignLeft, s);
+    painter.drawText(QRectF(bar.right() + 5, y - 8, barText(), 16), align | Qt::AlignLeft, s);
   };
-  text(bar.top() + 8, tr("%1 °C").arg(scale_.high_c, 0, 'f', 0), p.dim, Qt::AlignVCenter);
-  text(bar.bottom() - 8, tr("%1 °C").arg(scale_.low_c, 0, 'f', 0), p.dim, Qt::AlignVCenter);
-  if (scale_.automatic) text(bar.top() + 24, tr("AUTO scale"), p.caution, Qt::AlignVCenter);
+  const QString unit = compact_ ? tr("%1°") : tr("%1 °C");
+  text(bar.top() + 8, unit.arg(scale_.high_c, 0, 'f', 0), p.dim, Qt::AlignVCenter);
+  text(bar.bottom() - 8, unit.arg(scale_.low_c, 0, 'f', 0), p.dim, Qt::AlignVCenter);
+  if (scale_.automatic)
+    text(bar.top() + 24, compact_ ? tr("AUTO") : tr("AUTO scale"), p.caution, Qt::AlignVCenter);
   if (!heat_ || heat_->threshold_k <= 0.0) return;
   const double threshold_c = toCelsius(heat_->threshold_k);
   const double y = bar.bottom() - scale_.position(threshold_c) * bar.height();
   painter.setPen(QPen(p.text, 1.5));
   painter.drawLine(QPointF(bar.left() - 3, y), QPointF(bar.right() + 3, y));
-  text(y, tr("%1 threshold").arg(threshold_c, 0, 'f', 0), p.text, Qt::AlignVCenter);
+  text(y, (compact_ ? tr("%1°") : tr("%1 threshold")).arg(threshold_c, 0, 'f', 0), p.text,
+       Qt::AlignVCenter);
 }
 
 void ThermalView::paintNotice(QPainter& painter, const QRectF& picture) const {

@@ -22,6 +22,8 @@ class ThermalView : public QWidget {
   void show(const ThermalImagePtr& image, const std::shared_ptr<const HeatDetections>& heat,
             const QString& notice);
   void setAutomaticScale(bool automatic);
+  /// The scale in bare numbers, for the picture's sake.
+  void setCompact(bool compact);
   [[nodiscard]] bool automaticScale() const { return automatic_; }
   [[nodiscard]] const ThermalScale& scale() const { return scale_; }
   /// "84.3 °C at (98, 56)" for a position in this widget; empty outside the picture.
@@ -39,6 +41,7 @@ class ThermalView : public QWidget {
   void leaveEvent(QEvent* event) override;
 
  private:
+  [[nodiscard]] int barText() const;
   void recolor();
   void paintBlobs(QPainter& painter, const QRectF& picture) const;
   void paintBlob(QPainter& painter, const QRectF& picture, const HeatBlob& blob,
@@ -51,6 +54,7 @@ class ThermalView : public QWidget {
   PerceptualMap map_ = PerceptualMap::heat();
   ThermalScale scale_;
   bool automatic_ = false;
+  bool compact_ = false;
   ThermalImagePtr image_;
   std::shared_ptr<const HeatDetections> heat_;
   QString notice_;

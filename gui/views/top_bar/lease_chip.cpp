@@ -24,6 +24,10 @@ LeaseChip::LeaseChip(const Ui& ui, LeaseModel& lease, QWidget* parent)
   refresh();
 }
 
+QString LeaseChip::shortText() const {
+  return lease_.holder() == LeaseHolder::Other ? lease_.holderName() : text();
+}
+
 QString LeaseChip::text() const {
   switch (lease_.holder()) {
     case LeaseHolder::Unknown:
@@ -56,10 +60,11 @@ void LeaseChip::refresh() {
                    : !lease_.askedBy().isEmpty() ? ActKind::Caution
                                                  : ActKind::Normal);
   button_->setEnabled(lease_.possible() && holder != LeaseHolder::Unknown && !lease_.requesting());
-  setToolTip(!lease_.possible() ? tr("A recording cannot be commanded.")
-             : lease_.refusal().isEmpty()
-                 ? tr("The lease lets one station command the robot. STOP needs no lease.")
-                 : tr("Refused: %1").arg(lease_.refusal()));
+  setToolTip(
+      !lease_.possible() ? tr("A recording cannot be commanded.")
+      : lease_.refusal().isEmpty()
+          ? tr("%1. The lease lets one station command the robot. STOP needs no lease.").arg(text())
+          : tr("Refused: %1").arg(lease_.refusal()));
   update();
 }
 
@@ -87,8 +92,11 @@ void LeaseChip::paintEvent(QPaintEvent*) {
   painter.setPen(holder == LeaseHolder::Unknown ? p.faint : p.text);
   painter.setFont(ui_.theme.font(TextRole::Small));
   const QRect area(24, 0, kText_px - 26, height());
+  const QFontMetrics metrics = painter.fontMetrics();
+  // The mark says "somebody else" already: a long name goes before the words about it.
+  const QString shown = metrics.horizontalAdvance(text()) <= area.width() ? text() : shortText();
   painter.drawText(area, Qt::AlignLeft | Qt::AlignVCenter,
-                   painter.fontMetrics().elidedText(text(), Qt::ElideRight, area.width()));
+                   metrics.elidedText(shown, Qt::ElideRight, area.width()));
 }
 
 }  // namespace kiln::gui

@@ -13,6 +13,8 @@ class LeaseChip : public QWidget {
  public:
   LeaseChip(const Ui& ui, LeaseModel& lease, QWidget* parent = nullptr);
   [[nodiscard]] QString text() const;
+  /// For a chip that is too narrow for text().
+  [[nodiscard]] QString shortText() const;
   [[nodiscard]] ActButton* button() const { return button_; }
 
  protected:

@@ -119,6 +119,20 @@ void CartesianPathConfig::visit(ConfigArchive& a) {
   a.field("max_joint_step_rad", max_joint_step_rad, "rad", 0.01, 1, "more leaves the branch");
 }
 
+std::size_t posesBehind(const CartesianPathConfig& config, const Eigen::Isometry3d& X_from,
+                        const std::vector<Eigen::Isometry3d>& X_base_flange, double covered) {
+  std::vector<double> way;
+  double length = 0.0;
+  const Eigen::Isometry3d* last = &X_from;
+  for (const Eigen::Isometry3d& X : X_base_flange) {
+    way.push_back(length += wayBetween(*last, X, config));
+    last = &X;
+  }
+  std::size_t behind = 0;
+  while (behind + 1 < way.size() && way[behind] < covered * length) ++behind;
+  return behind;
+}
+
 Result<std::vector<JointPath>> cartesianPaths(
     const RobotGeometry& robot, const ArmCollision& collision, const CartesianPathConfig& config,
     const Vector6d& q_start, const std::vector<Eigen::Isometry3d>& X_base_flange, bool blend) {

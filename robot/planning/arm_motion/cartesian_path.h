@@ -31,6 +31,13 @@ struct CartesianPathConfig {
     const RobotGeometry& robot, const ArmCollision& collision, const CartesianPathConfig& config,
     const Vector6d& q_start, const std::vector<Eigen::Isometry3d>& X_base_flange, bool blend);
 
+/// How many of the poses are behind when a share of the way from `X_from` through all of them is
+/// covered. The last pose is never behind.
+[[nodiscard]] std::size_t posesBehind(const CartesianPathConfig& config,
+                                      const Eigen::Isometry3d& X_from,
+                                      const std::vector<Eigen::Isometry3d>& X_base_flange,
+                                      double covered);
+
 /// Flange pose at which something mounted on the flange (nozzle, camera) has the wanted pose.
 [[nodiscard]] inline Eigen::Isometry3d flangeFor(const Eigen::Isometry3d& X_base_mounted,
                                                  const Eigen::Isometry3d& X_flange_mounted) {

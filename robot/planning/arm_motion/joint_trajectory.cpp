@@ -91,6 +91,15 @@ JointTrajectory::Point JointTrajectory::along(const Piece& piece, const PathPoin
   return {q0 + u * (m0 + u * (c2 + u * c3)), slope * at.speed};
 }
 
+double JointTrajectory::covered(double t_s) const {
+  double all = 0.0, done = 0.0;
+  for (const Piece& piece : pieces_) {
+    all += piece.path.s.back();
+    done += piece.timing.at(t_s - piece.start_s).s;
+  }
+  return all > 0.0 ? std::clamp(done / all, 0.0, 1.0) : 1.0;
+}
+
 JointTrajectory::Point JointTrajectory::at(double t_s) const {
   const Piece* piece = &pieces_.front();
   for (const Piece& candidate : pieces_) {

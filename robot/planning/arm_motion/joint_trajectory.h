@@ -38,6 +38,8 @@ class JointTrajectory {
   JointTrajectory(std::vector<JointPath> paths, const JointPathLimits& limits);
   [[nodiscard]] double duration() const { return duration_; }
   [[nodiscard]] Point at(double t_s) const;
+  /// Share of the way, 0..1, that is covered at this time.
+  [[nodiscard]] double covered(double t_s) const;
   [[nodiscard]] const Vector6d& goal() const { return pieces_.back().path.q.back(); }
 
  private:

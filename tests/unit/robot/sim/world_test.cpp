@@ -156,6 +156,29 @@ TEST_F(WorldTest, JumpOfTheServoTargetIsAProtectiveStopUntilReleased) {
   EXPECT_EQ(report.refused, "");
 }
 
+// A busy machine: the world's clock waited, and of the targets that were sent meanwhile only the
+// newest arrives. It fits the time that passed at the sender.
+TEST_F(WorldTest, ATargetIsJudgedByThePaceOfItsSending) {
+  auto world = make();
+  Vector6d q = RobotGeometry::radians(world->robot().q_park_deg);
+  const Stamp sent = stampFromNanoseconds(5'000'000'000);
+  WorldCommands c;
+  c.arm = ArmServo{q, Vector6d::Zero()};
+  c.arm_sent = sent;
+  world->command(c);
+  q[0] -= 0.08;  // 0.8 rad/s for 100 ms
+  c.arm = ArmServo{q, Vector6d::Zero()};
+  c.arm_sent = sent + std::chrono::milliseconds(100);
+  world->command(c);
+  EXPECT_EQ(world->advance(world->now() + fromSeconds(kPeriod)).arm.safety, ArmSafetyMode::Normal);
+  q[0] -= 0.5;
+  c.arm = ArmServo{q, Vector6d::Zero()};
+  c.arm_sent = sent + std::chrono::milliseconds(140);
+  world->command(c);
+  EXPECT_EQ(world->advance(world->now() + fromSeconds(kPeriod)).arm.safety,
+            ArmSafetyMode::ProtectiveStop);
+}
+
 TEST_F(WorldTest, NanAndOutOfRangeCommandsMoveNothing) {
   const auto world = make();
   WorldCommands c;

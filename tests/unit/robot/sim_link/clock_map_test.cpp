@@ -34,5 +34,12 @@ TEST(ClockMap, FollowsAWorldThatFallsBehindWithinTwoWindows) {
   EXPECT_EQ(map.shift(), std::chrono::milliseconds(400));
 }
 
+TEST(ClockMap, FollowsAWorldThatSaysItWaitedAtOnce) {
+  ClockMap map;
+  for (std::int64_t t = 0; t < 3000; t += 8) map.observe(ms(t + 100), ms(t));
+  map.observe(ms(3408), ms(3008), std::chrono::milliseconds(300));
+  EXPECT_EQ(ms(3008) + map.shift(), ms(3408));
+}
+
 }  // namespace
 }  // namespace kiln

@@ -22,11 +22,11 @@ class MoveArmTest : public ::testing::Test {
     ++ticks;
     arm.advance();
     if (ticks % 2 == 0) controller.tick(clock.now());
-    if (ticks % 5 == 0 && polling) status = skill.poll(clock.now());
+    if (ticks % 5 == 0 && polling) status = active->poll(clock.now());
   }
   SkillStatus run(double limit_s = 60.0) {
     polling = true;
-    status = skill.poll(clock.now());
+    status = active->poll(clock.now());
     const Stamp end = clock.now() + fromSeconds(limit_s);
     while (status.phase == SkillPhase::Running && clock.now() < end) tick();
     polling = false;
@@ -35,6 +35,11 @@ class MoveArmTest : public ::testing::Test {
   void advance(double seconds) {
     const Stamp end = clock.now() + fromSeconds(seconds);
     while (clock.now() < end) tick();
+  }
+  static MoveArm::Config slowly() {
+    MoveArm::Config config;
+    config.speed_scale = 0.05;
+    return config;
   }
   Vector6d home() const { return RobotGeometry::radians(robot.q_drive_deg); }
 
@@ -46,6 +51,8 @@ class MoveArmTest : public ::testing::Test {
   StopLatch stop;
   ArmController controller{{}, robot, arm, stop};
   MoveArm skill{{}, robot, arena, controller, arm, [this] { return X_map_base; }};
+  MoveArm slow{slowly(), robot, arena, controller, arm, [this] { return X_map_base; }};
+  MoveArm* active = &skill;
   SkillStatus status;
   bool polling = false;
   int ticks = 0;
@@ -176,6 +183,61 @@ TEST_F(MoveArmTest, AJammedArmFailsAsTracking) {
   skill.startJoints(RobotGeometry::radians(robot.q_park_deg), clock.now());
   arm.jam(true);
   EXPECT_EQ(run(20.0).failure_code, "tracking") << status.text;
+}
+
+// A machine too busy to run the mission loop for longer than a setpoint lives.
+TEST_F(MoveArmTest, TakesAMoveUpAgainAfterTheLoopSlipped) {
+  active = &slow;
+  slow.startJoints(RobotGeometry::radians(robot.q_park_deg), clock.now());
+  polling = true;
+  advance(0.8);
+  for (const double gap_s : {0.15, 0.4, 1.2}) {
+    polling = false;
+    advance(gap_s);
+    polling = true;
+    advance(0.9);
+    ASSERT_EQ(status.phase, SkillPhase::Running) << status.failure_code << ": " << status.text;
+  }
+  EXPECT_EQ(run().phase, SkillPhase::Done) << status.failure_code << ": " << status.text;
+}
+
+TEST_F(MoveArmTest, GivesUpAMoveThatIsInterruptedAgainAndAgain) {
+  active = &slow;
+  slow.startJoints(RobotGeometry::radians(robot.q_park_deg), clock.now());
+  for (int k = 0; k < 20 && status.phase != SkillPhase::Failed; ++k) {
+    polling = true;
+    advance(0.5);
+    polling = false;
+    advance(0.4);
+  }
+  EXPECT_EQ(status.failure_code, "tracking");
+  EXPECT_NE(status.text.find("after 4 new tries"), std::string::npos) << status.text;
+}
+
+TEST_F(MoveArmTest, OfAnInterruptedPathOnlyTheRestIsDone) {
+  skill.startPose(flangeForCamera(robot, {1.25, 0.3, 1.3}), clock.now());
+  ASSERT_EQ(run().phase, SkillPhase::Done) << status.failure_code << ": " << status.text;
+  // Across, down and back: 0.6 + 0.3 + 0.6 m at 0.25 m/s.
+  skill.startCartesian(
+      {flangeForCamera(robot, {1.25, -0.3, 1.3}), flangeForCamera(robot, {1.25, -0.3, 1.0}),
+       flangeForCamera(robot, {1.25, 0.3, 1.0})},
+      true, clock.now());
+  polling = true;
+  advance(4.0);  // on the way down
+  polling = false;
+  advance(0.5);
+  polling = true;
+  double highest = 0.0, right_end = 0.0;
+  while (status.phase == SkillPhase::Running) {
+    tick();
+    const Eigen::Vector3d p =
+        (robot.X_base_flange(arm.state()->q) * robot.X_flange_thermal.pose()).translation();
+    highest = std::max(highest, p.z());
+    right_end = std::min(right_end, p.y());
+  }
+  EXPECT_EQ(status.phase, SkillPhase::Done) << status.failure_code << ": " << status.text;
+  EXPECT_LT(highest, 1.29) << "the first line was driven again";
+  EXPECT_LT(right_end, -0.27) << "the corner was cut";
 }
 
 TEST_F(MoveArmTest, GoesAroundAnObstacleByPlanningInSlices) {
