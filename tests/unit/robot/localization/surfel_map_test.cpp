@@ -111,7 +111,8 @@ TEST_F(MapFileTest, GivesBackTheSamePlanesAndTheSameBytes) {
   EXPECT_EQ(read->find("outdoor")->center(), map_.find("outdoor")->center());
   const auto before = map_.find("indoor")->surfels(0), after = read->find("indoor")->surfels(0);
   EXPECT_NEAR(static_cast<double>(after.size()), static_cast<double>(before.size()),
-              0.06 * static_cast<double>(before.size())) << "thin cells are left out";
+              0.06 * static_cast<double>(before.size()))
+      << "thin cells are left out";
   SurfelMap::Neighbours near;
   int compared = 0;
   for (const Surfel& surfel : before) {  // the file sorts the cells
