@@ -32,6 +32,14 @@ const char* causeName(TransitionCause cause) {
 /// Milliseconds are enough for a reader and keep the file free of rounding noise.
 double rounded(Duration d) { return static_cast<double>(d.count() / 1'000'000) / 1000.0; }
 
+/// What the last state says, and after a failure why the mission went there.
+std::string reasonOf(const FsmStatus& last, const std::vector<FsmHistoryEntry>& states) {
+  const std::string note = states.empty() ? std::string() : states.back().note;
+  if (last.success || note.empty() || last.display_text.find(note) != std::string::npos)
+    return last.display_text;
+  return note + "; " + last.display_text;
+}
+
 }  // namespace
 
 void MissionReport::observe(const FsmStatus& status) {
@@ -110,7 +118,7 @@ std::string MissionReport::toJson(Stamp now) const {
   const json report{{"mission", mission_},
                     {"version", KILN_VERSION},
                     {"outcome", outcome},
-                    {"reason", last_.display_text},
+                    {"reason", reasonOf(last_, states_)},
                     {"mission_s", rounded(now - start_)},
                     {"litres_est", litres_est_},
                     {"resets", resets_},
