@@ -1,5 +1,7 @@
+#include <vtkActor.h>
 #include <vtkPolyData.h>
 #include <vtkProperty.h>
+#include <vtkSmartPointer.h>
 
 #include "gui/views/scene3d/rebuilt_actor.h"
 

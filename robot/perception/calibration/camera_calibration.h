@@ -21,7 +21,7 @@ class CameraCalibrator {
     double noise_px = 0.7;
     double prior_m = 0.03, prior_deg = 2.0;
     int rounds = 14;
-    int min_points = 80;
+    int min_points = 40;
     void visit(ConfigArchive& a);
   };
   explicit CameraCalibrator(Config config) : config_(config) {}

@@ -32,8 +32,8 @@ TEST(CameraCalibration, FindsTheOperatorCameraFromTheRobotsOwnEdges) {
     const Eigen::Isometry3d& truth = rig.arena.robot.X_base_operatorcamera;
     const auto before = difference(truth, nominal),
                after = difference(truth, found->X_parent_sensor);
-    EXPECT_LT(after.rotation_rad, 0.12 * kDeg) << "was " << before.rotation_rad / kDeg;
-    EXPECT_LT(after.translation_m, 0.005) << "was " << before.translation_m;
+    EXPECT_LT(after.rotation_rad, 0.2 * kDeg) << "was " << before.rotation_rad / kDeg;
+    EXPECT_LT(after.translation_m, 0.008) << "was " << before.translation_m;
     EXPECT_LT(found->rms_after, found->rms_before);
   }
 }
