@@ -1,0 +1,45 @@
+#include "gui/views/scene3d/rebuilt_actor.h"
+
+#include <vector>
+
+#include <vtkActor.h>
+#include <vtkPolyData.h>
+#include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
+
+namespace kiln::gui {
+
+struct RebuiltActor::Meshes {
+  explicit Meshes(vtkRenderer& r) : renderer(r) {}
+  ~Meshes() { clear(); }
+  void clear() {
+    for (auto& actor : actors) renderer.RemoveActor(actor);
+    actors.clear();
+  }
+  vtkRenderer& renderer;
+  std::vector<vtkSmartPointer<vtkActor>> actors;
+};
+
+RebuiltActor::RebuiltActor(vtkRenderer& renderer, SceneLayer layer)
+    : meshes_(std::make_unique<Meshes>(renderer)), layer_(layer) {}
+
+RebuiltActor::~RebuiltActor() = default;
+
+void RebuiltActor::update(const SceneSnapshot& snapshot, const SceneColors& colors) {
+  const LayerState& layer = snapshot.layer(layer_);
+  if (revision_ == layer.revision && dark_ == colors.dark) return;
+  revision_ = layer.revision;
+  dark_ = colors.dark;
+  meshes_->clear();
+  if (layer.visible) build(snapshot, layer.freshness, colors);
+}
+
+vtkActor& RebuiltActor::add(vtkPolyData* mesh, Rgb color, const Eigen::Isometry3d& X) {
+  auto actor = addActor(meshes_->renderer, mesh);
+  setColor(*actor, color);
+  setPose(*actor, X);
+  meshes_->actors.push_back(actor);
+  return *actor;
+}
+
+}  // namespace kiln::gui
