@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "robot/evaluation/mission_run.h"
+#include "tests/support/paths.h"
 
 namespace kiln {
 namespace {
@@ -23,7 +24,7 @@ struct FaultyRun {
 
 FaultyRun runWith(const std::string& fault) {
   MissionRunOptions options;
-  options.programs = KILN_BINARY_DIR "/bin";
+  options.programs = kiln::binaryDir() + "/bin";
   options.world_args = {"--fault", fault};
   auto run = runMission(options);
   if (!run) {
