@@ -28,13 +28,13 @@ class ArenaActor final : public RebuiltActor {
     const double top = box.X_map_box.translation().z() + box.half_extent.z();
     const bool wall = top > kWallHeight_m;
     const Rgb color = wall ? colors.wall : colors.furniture;
-    const auto solid =
+    vtkActor& solid =
         add(boxMesh(2.0 * box.half_extent), agedColor(color, freshness, colors), box.X_map_box);
-    solid->GetProperty()->SetOpacity(wall ? kWallOpacity : kFurnitureOpacity);
-    solid->GetProperty()->SetInterpolationToFlat();
-    const auto edges = add(boxEdges(-box.half_extent, box.half_extent),
-                           agedColor(colors.wall_edge, freshness, colors), box.X_map_box);
-    makeFlat(*edges, 1.0F);
+    solid.GetProperty()->SetOpacity(wall ? kWallOpacity : kFurnitureOpacity);
+    solid.GetProperty()->SetInterpolationToFlat();
+    vtkActor& edges = add(boxEdges(-box.half_extent, box.half_extent),
+                          agedColor(colors.wall_edge, freshness, colors), box.X_map_box);
+    makeFlat(edges, 1.0F);
   }
 };
 

@@ -103,15 +103,15 @@ class FireActor final : public RebuiltActor {
   void addFire(const FireEstimate& fire, Freshness freshness, const SceneColors& colors) {
     Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
     X.translation() = fire.p_map;
-    const auto core = add(sphereMesh(kCoreRadius_m), agedColor(colors.fire, freshness, colors), X);
-    core->GetProperty()->SetAmbient(0.6);
+    vtkActor& core = add(sphereMesh(kCoreRadius_m), agedColor(colors.fire, freshness, colors), X);
+    core.GetProperty()->SetAmbient(0.6);
     const Ellipsoid e = ellipsoidOf(fire.covariance);
     if (e.half_axes.maxCoeff() <= 0.0) return;
     const Eigen::Vector3d scale = (ellipsoidExaggeration(fire) * e.half_axes).cwiseMax(0.005);
     X.linear() = e.axes * scale.asDiagonal();
-    const auto shell =
+    vtkActor& shell =
         add(sphereMesh(1.0), agedColor(colors.fire_uncertainty, freshness, colors), X);
-    shell->GetProperty()->SetOpacity(kEllipsoidOpacity);
+    shell.GetProperty()->SetOpacity(kEllipsoidOpacity);
   }
 };
 

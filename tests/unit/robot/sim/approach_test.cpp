@@ -150,7 +150,7 @@ TEST(Approach, CrossesTheEdgeIntoTheKitchenWithoutCollision) {
     const Vector6d q = w.world->truth().q;
     double arm = 0.0, pitch = 0.0;
     while (x(w) < 5.2 && w.world->now() < Stamp{std::chrono::seconds(40)}) {
-      w.drive({speed, 0, 0}, 0.008);
+      w.drive({speed, 0, 0}, 0.04);
       const Truth truth = w.world->truth();
       arm = std::max(arm, (truth.q - q).cwiseAbs().maxCoeff());
       pitch = std::max(pitch, std::fabs(w.pitchDeg()));
