@@ -50,7 +50,7 @@ TEST(Faults, AThermalCameraThatFreezesForAWhileDelaysTheMissionOnly) {
 }
 
 TEST(Faults, BlockedPumpsAreTriedOnceMoreThenThePlaceIsLeft) {
-  const FaultyRun run = runWith("pump_blocked@55:2000");
+  const FaultyRun run = runWith("pump_blocked@35:2000");
   ASSERT_FALSE(run.states.empty());
   EXPECT_EQ(run.report["outcome"], "failed");
   EXPECT_GE(visits(run, "PumpFault"), 2);

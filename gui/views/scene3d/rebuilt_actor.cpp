@@ -9,35 +9,37 @@
 
 namespace kiln::gui {
 
-struct RebuiltActor::Parts {
+struct RebuiltActor::Meshes {
+  explicit Meshes(vtkRenderer& r) : renderer(r) {}
+  ~Meshes() { clear(); }
+  void clear() {
+    for (auto& actor : actors) renderer.RemoveActor(actor);
+    actors.clear();
+  }
+  vtkRenderer& renderer;
   std::vector<vtkSmartPointer<vtkActor>> actors;
 };
 
 RebuiltActor::RebuiltActor(vtkRenderer& renderer, SceneLayer layer)
-    : renderer_(renderer), layer_(layer), parts_(std::make_unique<Parts>()) {}
+    : meshes_(std::make_unique<Meshes>(renderer)), layer_(layer) {}
 
-RebuiltActor::~RebuiltActor() { clear(); }
+RebuiltActor::~RebuiltActor() = default;
 
 void RebuiltActor::update(const SceneSnapshot& snapshot, const SceneColors& colors) {
   const LayerState& layer = snapshot.layer(layer_);
   if (revision_ == layer.revision && dark_ == colors.dark) return;
   revision_ = layer.revision;
   dark_ = colors.dark;
-  clear();
+  meshes_->clear();
   if (layer.visible) build(snapshot, layer.freshness, colors);
 }
 
-vtkActor* RebuiltActor::add(vtkPolyData* mesh, Rgb color, const Eigen::Isometry3d& X_map_part) {
-  auto actor = addActor(renderer_, mesh);
+vtkActor& RebuiltActor::add(vtkPolyData* mesh, Rgb color, const Eigen::Isometry3d& X) {
+  auto actor = addActor(meshes_->renderer, mesh);
   setColor(*actor, color);
-  setPose(*actor, X_map_part);
-  parts_->actors.push_back(actor);
-  return actor;
-}
-
-void RebuiltActor::clear() {
-  for (auto& actor : parts_->actors) renderer_.RemoveActor(actor);
-  parts_->actors.clear();
+  setPose(*actor, X);
+  meshes_->actors.push_back(actor);
+  return *actor;
 }
 
 }  // namespace kiln::gui

@@ -13,24 +13,21 @@ namespace kiln::gui {
 class RebuiltActor : public SceneActor {
  public:
   RebuiltActor(vtkRenderer& renderer, SceneLayer layer);
-  ~RebuiltActor() override;
+  ~RebuiltActor() override;  ///< takes its meshes out of the renderer
   void update(const SceneSnapshot& snapshot, const SceneColors& colors) final;
 
  protected:
   virtual void build(const SceneSnapshot& snapshot, Freshness freshness,
                      const SceneColors& colors) = 0;
-  /// The new part, owned by this layer.
-  vtkActor* add(vtkPolyData* mesh, Rgb color, const Eigen::Isometry3d& X_map_part);
+  /// Into the renderer, until the next build.
+  vtkActor& add(vtkPolyData* mesh, Rgb color, const Eigen::Isometry3d& X);
 
  private:
-  struct Parts;
-  void clear();
-
-  vtkRenderer& renderer_;
+  struct Meshes;
+  std::unique_ptr<Meshes> meshes_;
   const SceneLayer layer_;
   std::uint64_t revision_ = ~std::uint64_t{0};
   bool dark_ = true;
-  std::unique_ptr<Parts> parts_;
 };
 
 }  // namespace kiln::gui
