@@ -214,6 +214,7 @@ void Robot::Impl::placeScan(PerceptionJobs::ScanResult& result) {
 
 /// The base must do what it is told, and go where localisation says: else the software STOP.
 void Robot::Impl::watchMotion(Stamp now) {
+  if (options.environment == Environment::Replay) return;  // it moved then by commands of then
   const BaseTracking tracking = base.tracking();
   const bool located = tracked.health != PoseHealth::Lost;
   base.placeInMap(located ? std::optional(tracked.X_map_odom) : std::nullopt);
