@@ -96,7 +96,7 @@ TEST_P(KilledMission, GoesOnWhereItStood) {
 }
 
 INSTANTIATE_TEST_SUITE_P(States, KilledMission,
-                         testing::Values("DriveToLocation", "AimHose", "SpraySteady"));
+                         testing::Values("DriveToLocation", "ArmSearch", "SpraySteady"));
 
 }  // namespace
 }  // namespace kiln
