@@ -66,8 +66,8 @@ Result<std::unique_ptr<ReplayLink>> ReplayLink::open(const std::string& path) {
   impl->now.run = describe(impl->replay.info());
   const RecordReader& reader = impl->replay.player().reader();
   if (!reader.complete()) {
-    impl->now.problem = tr("the recording was cut off; %1 bytes at its end are lost")
-                            .arg(reader.lostBytes());
+    impl->now.problem =
+        tr("the recording was cut off; %1 bytes at its end are lost").arg(reader.lostBytes());
   }
   return std::unique_ptr<ReplayLink>(new ReplayLink(std::move(impl)));
 }
@@ -178,14 +178,12 @@ void ReplayLink::Impl::obey(const Wish& wanted) {
 }
 
 void ReplayLink::Impl::poll() {
-  const auto polled =
-      replay.poll([this](Topic topic, std::string_view payload, Stamp published) {
-        Arrival arrival;
-        arrival.received = published;
-        const auto done =
-            dispatch(topic, payload, callbacks, arrival, [](const RobotStatus&) {});
-        if (!done) inboxes->warn(done.error().message);
-      });
+  const auto polled = replay.poll([this](Topic topic, std::string_view payload, Stamp published) {
+    Arrival arrival;
+    arrival.received = published;
+    const auto done = dispatch(topic, payload, callbacks, arrival, [](const RobotStatus&) {});
+    if (!done) inboxes->warn(done.error().message);
+  });
   if (polled) return;
   now.problem = QString::fromStdString(polled.error().message);
   inboxes->warn(polled.error().message);

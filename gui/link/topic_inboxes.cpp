@@ -31,8 +31,7 @@ TopicInboxes::TopicInboxes(Link& link, std::function<void(const Arrival&)> arriv
       heat_(link, [&link](const auto& value) { emit link.heat(value); }),
       head_image_(link, [&link](const auto& value) { emit link.image(value); }),
       operator_image_(link, [&link](const auto& value) { emit link.image(value); }),
-      log_(link, kLogQueue,
-           [&link](const std::vector<LogLine>& lines) { emit link.log(lines); }) {
+      log_(link, kLogQueue, [&link](const std::vector<LogLine>& lines) { emit link.log(lines); }) {
   decoder_ = std::make_unique<JpegDecoder>(
       [this](RgbImagePtr image) {
         (image->frame == "rgb" ? head_image_ : operator_image_).put(std::move(image));

@@ -11,8 +11,8 @@ class LocalizationModel : public Model {
   explicit LocalizationModel(Link& link, QObject* parent = nullptr);
   /// nullptr before the first.
   [[nodiscard]] const LocalizationStatus* status() const { return status_.get(); }
-  /// "good ±1.2 cm ±0.3°", "degraded ±12 cm ±1.4°", "lost"; "unknown" while nothing is known or what
-  /// is known is too old.
+  /// "good ±1.2 cm ±0.3°", "degraded ±12 cm ±1.4°", "lost"; "unknown" while nothing is known or
+  /// what is known is too old.
   [[nodiscard]] QString summary() const;
   /// Lines for a tooltip: why, method, part of the map, last match, tracking error.
   [[nodiscard]] QString details() const;

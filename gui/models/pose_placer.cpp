@@ -43,7 +43,8 @@ void PosePlacer::go(Phase phase) {
 void PosePlacer::start() {
   reason_.clear();
   if (!mayStart(&reason_)) return go(Phase::Refused);
-  if (const RobotStatus* status = models_.status.status()) pose_.yaw_rad = status->X_map_base.yaw_rad;
+  if (const RobotStatus* status = models_.status.status())
+    pose_.yaw_rad = status->X_map_base.yaw_rad;
   go(Phase::Armed);
 }
 
@@ -68,11 +69,10 @@ void PosePlacer::confirm() {
   if (phase_ != Phase::Placed) return;
   if (!mayStart(&reason_)) return go(Phase::Refused);
   go(Phase::Sent);
-  nonce_ = models_.commands.send(
-      SetPose{pose_}, tr("set pose to %1, %2 m, %3°")
-                          .arg(pose_.x_m, 0, 'f', 2)
-                          .arg(pose_.y_m, 0, 'f', 2)
-                          .arg(pose_.yaw_rad * 180.0 / M_PI, 0, 'f', 0));
+  nonce_ = models_.commands.send(SetPose{pose_}, tr("set pose to %1, %2 m, %3°")
+                                                     .arg(pose_.x_m, 0, 'f', 2)
+                                                     .arg(pose_.y_m, 0, 'f', 2)
+                                                     .arg(pose_.yaw_rad * 180.0 / M_PI, 0, 'f', 0));
   if (const TrackedCommand* command = models_.commands.find(nonce_)) onProgress(*command);
 }
 
@@ -88,7 +88,8 @@ void PosePlacer::onProgress(const TrackedCommand& command) {
     reason_ = toText(command.phase) + QStringLiteral(": ") + command.reason;
     return go(Phase::Refused);
   }
-  if (command.phase == CommandPhase::Done || command.phase == CommandPhase::Accepted) go(Phase::Idle);
+  if (command.phase == CommandPhase::Done || command.phase == CommandPhase::Accepted)
+    go(Phase::Idle);
 }
 
 void PosePlacer::watchExpiry() {

@@ -62,7 +62,7 @@ class BaseController {
     double align_done_deg = 4.0;
     double speed_integral_hz = 3.0;  ///< measured speed that stays behind is made good; 0: not
     double max_trim_mps = 0.05;      ///< by no more than this: twice what 4 degrees need, and too
-                                 ///< little to hide a runaway
+                                     ///< little to hide a runaway
     void visit(ConfigArchive& a);
   };
   BaseController(Config config, const RobotGeometry& robot, DriveBase& base, const StopLatch& stop);

@@ -44,8 +44,7 @@ bool RecordChip::troubled() const {
   const RobotStatus* status = models_.status.status();
   if (!status) return false;
   const RecordingStatus& r = status->recording;
-  return !r.problem.empty() ||
-         (r.on && (r.dropped > 0 || r.disk_free_bytes < kLittleDisk_bytes));
+  return !r.problem.empty() || (r.on && (r.dropped > 0 || r.disk_free_bytes < kLittleDisk_bytes));
 }
 
 QString RecordChip::text() const {

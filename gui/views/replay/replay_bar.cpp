@@ -121,8 +121,8 @@ void ReplayBar::paintEvent(QPaintEvent*) {
   painter.drawText(QRect(slider_->geometry().right() + 8, 0, kTimes_px, height()),
                    Qt::AlignVCenter | Qt::AlignLeft,
                    QStringLiteral("%1 / %2").arg(timeText(at), timeText(length)));
-  painter.drawText(QRect(slower_->geometry().right() + 2, 0, faster_->x() - slower_->geometry().right() - 4,
-                         height()),
+  painter.drawText(QRect(slower_->geometry().right() + 2, 0,
+                         faster_->x() - slower_->geometry().right() - 4, height()),
                    Qt::AlignCenter, QStringLiteral("%1×").arg(playback_.speed));
 }
 

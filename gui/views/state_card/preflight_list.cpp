@@ -24,8 +24,9 @@ void PreflightList::setChecks(const std::vector<Check>& checks) {
   std::stable_partition(checks_.begin(), checks_.end(), [](const Check& c) { return !c.ok; });
   QStringList tip;
   for (const Check& check : checks_) {
-    tip << QStringLiteral("%1 %2: %3").arg(check.ok ? QStringLiteral("✓") : QStringLiteral("!"),
-                                           text(check.name), text(check.detail));
+    tip << QStringLiteral("%1 %2: %3")
+               .arg(check.ok ? QStringLiteral("✓") : QStringLiteral("!"), text(check.name),
+                    text(check.detail));
   }
   setToolTip(tip.join(QLatin1Char('\n')));
   updateGeometry();
@@ -74,8 +75,8 @@ void PreflightList::paintFailing(QPainter& painter, const Check& check, int y, i
   const int name = QFontMetrics(strong).horizontalAdvance(text(check.name)) + 8;
   painter.setFont(strong);
   painter.setPen(p.text);
-  painter.drawText(QRect(kMark_px, y, width - kMark_px, kRow_px),
-                   Qt::AlignVCenter | Qt::AlignLeft, text(check.name));
+  painter.drawText(QRect(kMark_px, y, width - kMark_px, kRow_px), Qt::AlignVCenter | Qt::AlignLeft,
+                   text(check.name));
   painter.setFont(small);
   painter.setPen(p.caution);
   const int room = std::max(0, width - kMark_px - name);
@@ -90,8 +91,8 @@ void PreflightList::paintPassing(QPainter& painter, const Check& check, int y) c
   const Palette& p = ui_.theme.colors();
   const QPointF c(8, y + kPassing_px / 2.0);
   painter.setPen(QPen(p.ok, 2.0, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
-  painter.drawPolyline(QPolygonF() << c + QPointF(-4, 0) << c + QPointF(-1.5, 3)
-                                   << c + QPointF(4, -3.5));
+  painter.drawPolyline(QPolygonF()
+                       << c + QPointF(-4, 0) << c + QPointF(-1.5, 3) << c + QPointF(4, -3.5));
   const QFont small = ui_.theme.font(TextRole::Small);
   const QFontMetrics metrics(small);
   painter.setFont(small);
@@ -101,8 +102,7 @@ void PreflightList::paintPassing(QPainter& painter, const Check& check, int y) c
                    Qt::AlignVCenter | Qt::AlignLeft, text(check.name));
   painter.setPen(p.dim);
   const int room = std::max(0, width() - kMark_px - name);
-  painter.drawText(QRect(kMark_px + name, y, room, kPassing_px),
-                   Qt::AlignVCenter | Qt::AlignRight,
+  painter.drawText(QRect(kMark_px + name, y, room, kPassing_px), Qt::AlignVCenter | Qt::AlignRight,
                    metrics.elidedText(text(check.detail), Qt::ElideRight, room));
 }
 
@@ -115,8 +115,7 @@ void PreflightList::paintEvent(QPaintEvent*) {
   std::size_t i = 0;
   for (; i < checks_.size(); ++i) {
     const Check& check = checks_[i];
-    const int needs =
-        check.ok ? kPassing_px : kRow_px + actionHeight(check, width()) + kGap_px;
+    const int needs = check.ok ? kPassing_px : kRow_px + actionHeight(check, width()) + kGap_px;
     const bool last = i + 1 == checks_.size();
     if (y + needs > (last ? height() : bottom)) break;
     check.ok ? paintPassing(painter, check, y) : paintFailing(painter, check, y, width());
@@ -124,9 +123,8 @@ void PreflightList::paintEvent(QPaintEvent*) {
   }
   if (i == checks_.size()) return;
   const auto rest = static_cast<int>(checks_.size() - i);
-  const auto bad = static_cast<int>(std::count_if(checks_.begin() + static_cast<long>(i),
-                                                  checks_.end(),
-                                                  [](const Check& c) { return !c.ok; }));
+  const auto bad = static_cast<int>(std::count_if(
+      checks_.begin() + static_cast<long>(i), checks_.end(), [](const Check& c) { return !c.ok; }));
   painter.setFont(ui_.theme.font(TextRole::Small));
   painter.setPen(bad > 0 ? p.caution : p.dim);
   painter.drawText(QRect(kMark_px, y, width() - kMark_px, kPassing_px),

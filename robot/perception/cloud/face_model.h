@@ -31,7 +31,7 @@ struct FireBoxSizes {
   double box = 0.4, opening = 0.15;
   double bar = 0.025;                                          ///< opaque frame along the edges
   double rim = 0.015;                                          ///< opaque rim around the opening
-  double recess = 0.10;                ///< plate behind the opening
+  double recess = 0.10;                                        ///< plate behind the opening
   double table = 0.7, table_height = 0.8, table_ahead = 0.05;  ///< its edge before the box's front
 };
 

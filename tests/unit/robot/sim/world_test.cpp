@@ -281,8 +281,7 @@ TEST_F(WorldTest, ServoTargetsUnderWayAtAResetAreDroppedAndLaterJumpsStillStop) 
 
 /// Ten seconds with everything on, as bytes.
 std::string record(std::uint64_t seed) {
-  WorldConfig config =
-      *WorldConfig::load(kiln::sourceDir() + "/resources/worlds/fire_full.yaml");
+  WorldConfig config = *WorldConfig::load(kiln::sourceDir() + "/resources/worlds/fire_full.yaml");
   for (const char* fault : {"people=3@0", "kidnap=0.3@1", "view_blocked@1.5"})
     config.faults.push_back(*FaultConfig::parse(fault));
   auto world = World::create(config, seed);
