@@ -24,14 +24,16 @@ void installSignalHandlers() {
 
 Result<void> runLockstep(SimLink& link, ManualClock& clock, ManualExecutor& executor, Duration step,
                          const std::function<bool()>& done) {
-  Stamp next = clock.now();
-  while (!done() && g_termination_signal == 0) {
-    next += step;
+  Stamp next = clock.now() + step;
+  Result<void> stepped = link.beginStep(next);
+  while (stepped && !done() && g_termination_signal == 0) {
     executor.runUntil(next - Duration{1});  // deliveries that fall between two steps
-    if (auto advanced = link.advanceTo(next); !advanced) return advanced;
-    executor.runUntil(next);
+    stepped = link.finishStep();
+    if (stepped) stepped = link.beginStep(next + step);
+    if (stepped) executor.runUntil(next);
+    next += step;
   }
-  return {};
+  return stepped;
 }
 
 namespace {

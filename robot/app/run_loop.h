@@ -15,7 +15,9 @@ extern std::atomic<int> g_termination_signal;
 void installSignalHandlers();
 
 /// Lockstep: world and robot step together in periods of `step` until `done` or a signal. Events of
-/// the robot at the end of each period see the world's report of that very instant.
+/// the robot at the end of each period see the world's report of that very instant; the world is
+/// already making the next step meanwhile (two processors), so a command takes effect one step
+/// later, as it does behind a servo loop.
 [[nodiscard]] Result<void> runLockstep(SimLink& link, ManualClock& clock, ManualExecutor& executor,
                                        Duration step, const std::function<bool()>& done);
 

@@ -62,7 +62,9 @@ struct SimLink::Impl {
   void run(std::stop_token stop);
   void handle(const v1::device::ToRobot& message);
   void watchSilence();
-  Result<void> advanceTo(Stamp until);
+  Result<void> beginStep(Stamp until);
+  Result<void> finishStep();
+  [[nodiscard]] tl::unexpected<Error> gone(const char* what);
   template <class T, class Deliver>
   void deliver(const Result<T>& value, Deliver to) {
     if (value) return to(*value);
@@ -202,17 +204,17 @@ void SimLink::Impl::run(std::stop_token stop) {
   }
 }
 
-Result<void> SimLink::Impl::advanceTo(Stamp until) {
-  KILN_CHECK(config.lockstep, "advanceTo() in real time");
+Result<void> SimLink::Impl::beginStep(Stamp until) {
+  KILN_CHECK(config.lockstep, "a step in real time");
   v1::device::ToWorld out;
   (void)outbox.take(*out.mutable_advance());
   out.mutable_advance()->set_until_ns(toNanoseconds(until));
-  const auto gone = [this](const char* what) {
-    outbox.setOpen(false);
-    return makeError(ErrorCode::Unavailable, "kiln-sim {}; see its output, then start both again",
-                     what);
-  };
   if (!outbox.open() || !socket->send(out)) return gone("is gone");
+  return {};
+}
+
+Result<void> SimLink::Impl::finishStep() {
+  KILN_CHECK(config.lockstep, "a step in real time");
   const int slices = std::max(1, static_cast<int>(std::lround(config.lockstep_timeout_s / 0.1)));
   for (int slice = 0; slice < slices; ++slice) {
     const auto message = socket->receive(std::chrono::milliseconds(100));
@@ -223,6 +225,12 @@ Result<void> SimLink::Impl::advanceTo(Stamp until) {
     if (socket->lost()) return gone("ended in the middle of a step");
   }
   return gone("does not answer");
+}
+
+tl::unexpected<Error> SimLink::Impl::gone(const char* what) {
+  outbox.setOpen(false);
+  return makeError(ErrorCode::Unavailable, "kiln-sim {}; see its output, then start both again",
+                   what);
 }
 
 SimLink::SimLink(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -241,7 +249,12 @@ Lidar& SimLink::lidar() { return impl_->lidar; }
 ThermalCamera& SimLink::thermalCamera() { return impl_->thermal; }
 RgbCamera& SimLink::operatorCamera() { return impl_->camera; }
 Arena& SimLink::arena() { return impl_->arena; }
-Result<void> SimLink::advanceTo(Stamp until) { return impl_->advanceTo(until); }
+Result<void> SimLink::beginStep(Stamp until) { return impl_->beginStep(until); }
+Result<void> SimLink::finishStep() { return impl_->finishStep(); }
+Result<void> SimLink::advanceTo(Stamp until) {
+  if (auto begun = beginStep(until); !begun) return begun;
+  return finishStep();
+}
 const SimLink::World& SimLink::world() const { return impl_->world; }
 bool SimLink::lockstep() const { return impl_->config.lockstep; }
 bool SimLink::connected() const { return impl_->outbox.open(); }

@@ -74,6 +74,10 @@ class SimLink {
   /// takes over its report. @pre until >= the last one. Error: Unavailable when the world is gone
   /// or silent.
   [[nodiscard]] Result<void> advanceTo(Stamp until);
+  /// advanceTo() in two halves, so that the robot can think while the world moves: what is
+  /// commanded between them takes effect in the step after. One finishStep() for each beginStep().
+  [[nodiscard]] Result<void> beginStep(Stamp until);
+  [[nodiscard]] Result<void> finishStep();
 
   [[nodiscard]] const World& world() const;
   [[nodiscard]] bool lockstep() const;

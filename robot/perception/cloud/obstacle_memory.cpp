@@ -40,16 +40,22 @@ ObstacleScan ObstacleMemory::observe(const Config& config, const PointCloud& sca
   out.range_m.assign(kRings * kAzimuths, 0.0f);
   const LocalGround ground(config.ground, scan_base);
   const Eigen::Isometry3f X_lidar_base = X_base_lidar.inverse().cast<float>();
+  // Neighbours in a ring that fall into one cube say it once.
+  const auto thin = static_cast<float>(0.5 * config.voxel_m);
+  std::array<Eigen::Vector3f, kRings> kept;
+  kept.fill(Eigen::Vector3f::Constant(INFINITY));
   for (std::size_t i = 0; i < scan_base.size(); ++i) {
     const Eigen::Vector3f p(scan_base.x[i], scan_base.y[i], scan_base.z[i]);
     if (!p.allFinite()) continue;
     const Eigen::Vector3f p_lidar = X_lidar_base * p;
-    float& longest = out.range_m[std::min<std::size_t>(scan_base.ring[i], kRings - 1) * kAzimuths +
-                                 azimuthBin(p_lidar)];
+    const std::size_t ring = std::min<std::size_t>(scan_base.ring[i], kRings - 1);
+    float& longest = out.range_m[ring * kAzimuths + azimuthBin(p_lidar)];
     longest = std::max(longest, p_lidar.norm());
     if (p.head<2>().squaredNorm() > config.max_range_m * config.max_range_m) continue;
+    if ((p - kept[ring]).squaredNorm() < thin * thin) continue;
     const auto height = static_cast<float>(ground.heightOf(p.x(), p.y(), p.z()));
     if (height < config.min_height_m || height > config.max_height_m) continue;
+    kept[ring] = p;
     out.points.push_back({p, height});
   }
   return out;
@@ -67,7 +73,10 @@ void ObstacleMemory::insert(const ObstacleScan& scan, const Pose2& X_odom_base) 
   const Eigen::Isometry3f X = toIsometry(X_odom_base).cast<float>();
   for (const ObstacleScan::Point& point : scan.points) {
     const Eigen::Vector3f p = X * point.p_base;
-    Voxel& voxel = voxels_[keyOf(p)];
+    const std::uint64_t key = keyOf(p);
+    const auto [slot, fresh] = slots_.try_emplace(key, voxels_.size());
+    if (fresh) voxels_.push_back({key});
+    Voxel& voxel = voxels_[slot->second];
     if (voxel.scans == 0 || voxel.seen != scan.stamp) ++voxel.scans;
     voxel.p_odom = p;
     voxel.height_m = point.height_m;
@@ -79,34 +88,51 @@ void ObstacleMemory::insert(const ObstacleScan& scan, const Pose2& X_odom_base) 
 void ObstacleMemory::forget(const ObstacleScan& scan, const Pose2& X_odom_base) {
   const Eigen::Isometry3f X_lidar_odom =
       (toIsometry(X_odom_base) * scan.X_base_lidar).inverse().cast<float>();
-  const Eigen::Isometry3f X_base_odom = toIsometry(inverse(X_odom_base)).cast<float>();
+  const Eigen::Vector3f p_odom_base = toIsometry(X_odom_base).translation().cast<float>();
+  const double far2 = std::pow(1.5 * config_.max_range_m, 2);
+  const Duration keep = fromSeconds(config_.keep_s);
   const auto gone = [&](Voxel& voxel) {
     if (voxel.seen == scan.stamp) return false;
-    if (scan.stamp - voxel.seen > fromSeconds(config_.keep_s)) return true;
-    if ((X_base_odom * voxel.p_odom).head<2>().norm() > 1.5 * config_.max_range_m) return true;
+    if (scan.stamp - voxel.seen > keep) return true;
+    if ((voxel.p_odom - p_odom_base).head<2>().squaredNorm() > far2) return true;
     const Eigen::Vector3f p = X_lidar_odom * voxel.p_odom;
-    const double elevation = std::asin(std::clamp(p.z() / p.norm(), -1.0f, 1.0f)) / kDeg;
+    const float range = p.norm();
+    const double elevation = std::asin(std::clamp(p.z() / range, -1.0f, 1.0f)) / kDeg;
     const double ring = (elevation - kLowestRing) / kRingStep;
     const double nearest = std::round(ring);
     // Only a beam that goes through the cube itself says something.
-    const double half_cube = 0.5 * config_.voxel_m / std::max(0.1f, p.norm()) / kDeg / kRingStep;
+    const double half_cube = 0.5 * config_.voxel_m / std::max(0.1f, range) / kDeg / kRingStep;
     if (nearest < 0 || nearest >= static_cast<double>(kRings) ||
         std::abs(ring - nearest) > half_cube)
       return false;
     const float through =
         scan.range_m[static_cast<std::size_t>(nearest) * kAzimuths + azimuthBin(p)];
-    if (through < p.norm() + config_.see_through_m) return false;
+    if (through < range + config_.see_through_m) return false;
     return ++voxel.misses >= config_.max_misses;
   };
-  for (auto it = voxels_.begin(); it != voxels_.end();)
-    it = gone(it->second) ? voxels_.erase(it) : std::next(it);
-  if (voxels_.size() > static_cast<std::size_t>(config_.max_voxels)) voxels_.clear();
+  for (std::size_t i = 0; i < voxels_.size();) {
+    if (!gone(voxels_[i])) {
+      ++i;
+      continue;
+    }
+    slots_.erase(voxels_[i].key);
+    if (i + 1 < voxels_.size()) {
+      voxels_[i] = voxels_.back();
+      slots_[voxels_[i].key] = i;
+    }
+    voxels_.pop_back();
+  }
+  if (voxels_.size() > static_cast<std::size_t>(config_.max_voxels)) {
+    voxels_.clear();
+    slots_.clear();
+  }
 }
 
 void ObstacleMemory::publish(Stamp stamp) {
   auto out = std::make_shared<ObstacleCloud>();
   out->stamp = stamp;
-  for (const auto& [key, voxel] : voxels_)
+  out->points.reserve(voxels_.size());
+  for (const Voxel& voxel : voxels_)
     if (voxel.scans >= config_.min_scans) out->points.push_back({voxel.p_odom, voxel.height_m});
   snapshot_ = std::move(out);
 }
@@ -120,6 +146,7 @@ void ObstacleMemory::add(const ObstacleScan& scan, const Pose2& X_odom_base) {
 
 void ObstacleMemory::clear() {
   voxels_.clear();
+  slots_.clear();
   snapshot_.reset();
 }
 

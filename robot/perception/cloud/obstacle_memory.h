@@ -51,8 +51,9 @@ class ObstacleMemory {
 
  private:
   struct Voxel {
-    Eigen::Vector3f p_odom;
-    float height_m;
+    std::uint64_t key;
+    Eigen::Vector3f p_odom = Eigen::Vector3f::Zero();
+    float height_m = 0.0f;
     Stamp seen;
     int scans = 0, misses = 0;
   };
@@ -62,7 +63,14 @@ class ObstacleMemory {
   void publish(Stamp stamp);
 
   Config config_;
-  std::unordered_map<std::uint64_t, Voxel> voxels_;
+  std::vector<Voxel> voxels_;  ///< dense: all of them are looked at with each scan
+  /// Neighbouring cubes have neighbouring keys, which the identity would put into one bucket.
+  struct Scatter {
+    std::size_t operator()(std::uint64_t key) const {
+      return static_cast<std::size_t>((key * 0x9E3779B97F4A7C15ULL) >> 20);  // Knuth: golden ratio
+    }
+  };
+  std::unordered_map<std::uint64_t, std::size_t, Scatter> slots_;  ///< key -> index in voxels_
   ObstacleCloudPtr snapshot_;
 };
 

@@ -127,6 +127,24 @@ TEST_F(SimLinkTest, LockstepSendsTheBufferedCommandsAndTakesTheReport) {
   EXPECT_EQ((*link)->resets(), 2u);
 }
 
+TEST_F(SimLinkTest, WhatIsCommandedWhileTheWorldMovesGoesWithTheNextStep) {
+  std::vector<bool> with_arm;
+  FakeWorld world(config.endpoint, [&](const ToWorld& m) -> std::optional<ToRobot> {
+    if (m.has_hello()) return welcome(true);
+    if (!m.has_advance()) return std::nullopt;
+    with_arm.push_back(m.advance().has_arm());
+    return reportAt(m.advance().until_ns());
+  });
+  auto link = SimLink::connect(config, clock);
+  ASSERT_TRUE(link.has_value()) << link.error();
+  ASSERT_TRUE((*link)->beginStep(stampFromNanoseconds(5'008'000'000)).has_value());
+  ASSERT_TRUE((*link)->arm().servo({}).has_value());
+  ASSERT_TRUE((*link)->finishStep().has_value());
+  ASSERT_TRUE((*link)->advanceTo(stampFromNanoseconds(5'016'000'000)).has_value());
+  EXPECT_EQ(with_arm, (std::vector<bool>{false, true}));
+  EXPECT_EQ(toNanoseconds((*link)->arm().state()->stamp), 5'016'000'000);
+}
+
 TEST_F(SimLinkTest, CommandsThatAreNotFiniteAreNeverSent) {
   FakeWorld world(config.endpoint, [](const ToWorld& m) -> std::optional<ToRobot> {
     return m.has_hello() ? std::optional(welcome(true)) : std::nullopt;
