@@ -91,8 +91,9 @@ std::int32_t SurfelMap::voxelAt(Level& level, const Cell& cell) {
   if (slot < 0) {
     slot = static_cast<std::int32_t>(level.voxels.size());
     Voxel voxel;
-    voxel.moments.cell = cell;
+    voxel.cell = cell;
     level.voxels.push_back(voxel);
+    level.surfels.emplace_back();
   }
   return slot;
 }
@@ -114,7 +115,7 @@ SurfelMap::ScanId SurfelMap::insert(std::span<const Eigen::Vector3f> points_map,
       const Cell cell = cellOf(levels_[k], p);
       if (!contains(levels_[k], cell)) continue;
       const std::int32_t voxel = voxelAt(levels_[k], cell);
-      auto& sides = levels_[k].voxels[static_cast<std::size_t>(voxel)].moments.sides;
+      auto& sides = levels_[k].voxels[static_cast<std::size_t>(voxel)].sides;
       const int side = sideOf(sides, view);
       sides[static_cast<std::size_t>(side)].add(p, view);
       const std::uint64_t key = (static_cast<std::uint64_t>(voxel) << 4U) |
@@ -137,7 +138,7 @@ Result<void> SurfelMap::remove(ScanId scan) {
   for (const Share& share : found->second) {
     SurfelMoments& moments = levels_[static_cast<std::size_t>(share.level)]
                                  .voxels[static_cast<std::size_t>(share.voxel)]
-                                 .moments.sides[static_cast<std::size_t>(share.side)];
+                                 .sides[static_cast<std::size_t>(share.side)];
     moments -= share.moments;
     if (moments.count < 0.5) moments = {};  // no rest of rounding
   }
@@ -149,7 +150,7 @@ bool SurfelMap::addMoments(int level, const CellMoments& moments) {
   if (level < 0 || level >= config_.levels) return false;
   Level& at = levels_[static_cast<std::size_t>(level)];
   if (!contains(at, moments.cell) || coveredByFiner(level, moments.cell)) return false;
-  auto& sides = at.voxels[static_cast<std::size_t>(voxelAt(at, moments.cell))].moments.sides;
+  auto& sides = at.voxels[static_cast<std::size_t>(voxelAt(at, moments.cell))].sides;
   for (std::size_t s = 0; s < 2; ++s) sides[s] += moments.sides[s];
   return true;
 }
@@ -157,30 +158,29 @@ bool SurfelMap::addMoments(int level, const CellMoments& moments) {
 void SurfelMap::sumFromFiner(int k) {
   Level& level = levels_[static_cast<std::size_t>(k)];
   for (Voxel& voxel : level.voxels) {
-    if (coveredByFiner(k, voxel.moments.cell)) voxel.moments.sides = {};
+    if (coveredByFiner(k, voxel.cell)) voxel.sides = {};
   }
   for (const Voxel& fine : levels_[static_cast<std::size_t>(k) - 1].voxels) {
-    const Cell cell = fine.moments.cell.unaryExpr([](int c) { return c >> 1; });
-    for (const SurfelMoments& side : fine.moments.sides) {
+    const Cell cell = fine.cell.unaryExpr([](int c) { return c >> 1; });
+    for (const SurfelMoments& side : fine.sides) {
       if (side.count < 0.5) continue;
-      auto& sides = level.voxels[static_cast<std::size_t>(voxelAt(level, cell))].moments.sides;
+      auto& sides = level.voxels[static_cast<std::size_t>(voxelAt(level, cell))].sides;
       sides[static_cast<std::size_t>(sideOf(sides, side.view_sum))] += side;
     }
   }
 }
 
 SurfelMoments SurfelMap::sameSurfaceAround(const Level& level, const Voxel& voxel, int side) const {
-  SurfelMoments sum = voxel.moments.sides[static_cast<std::size_t>(side)];
+  SurfelMoments sum = voxel.sides[static_cast<std::size_t>(side)];
   const Eigen::Vector3d view = sum.view_sum.normalized();
   for (int dz = -1; dz <= 1; ++dz) {
     for (int dy = -1; dy <= 1; ++dy) {
       for (int dx = -1; dx <= 1; ++dx) {
-        const Cell cell = voxel.moments.cell + Cell(dx, dy, dz);
+        const Cell cell = voxel.cell + Cell(dx, dy, dz);
         if ((dx == 0 && dy == 0 && dz == 0) || !contains(level, cell)) continue;
         const std::int32_t slot = level.index[offset(level, cell)];
         if (slot < 0) continue;
-        for (const SurfelMoments& other :
-             level.voxels[static_cast<std::size_t>(slot)].moments.sides) {
+        for (const SurfelMoments& other : level.voxels[static_cast<std::size_t>(slot)].sides) {
           if (other.count > 0.5 && other.view_sum.dot(view) > kSameSurface * other.view_sum.norm())
             sum += other;
         }
@@ -194,13 +194,14 @@ void SurfelMap::refresh() {
   for (int k = 0; k < config_.levels; ++k) {
     if (k > 0) sumFromFiner(k);
     Level& level = levels_[static_cast<std::size_t>(k)];
-    for (Voxel& voxel : level.voxels) {
+    for (std::size_t i = 0; i < level.voxels.size(); ++i) {
+      const Voxel& voxel = level.voxels[i];
       for (int side = 0; side < 2; ++side) {
         const auto s = static_cast<std::size_t>(side);
-        voxel.surfels[s] = voxel.moments.sides[s].count < 0.5
-                               ? Surfel{}
-                               : makeSurfel(voxel.moments.sides[s],
-                                            sameSurfaceAround(level, voxel, side), level.cell_m);
+        level.surfels[i][s] =
+            voxel.sides[s].count < 0.5
+                ? Surfel{}
+                : makeSurfel(voxel.sides[s], sameSurfaceAround(level, voxel, side), level.cell_m);
       }
     }
   }
@@ -222,7 +223,7 @@ void SurfelMap::gather(int k, const Eigen::Vector3f& p_map, const Eigen::Vector3
     const std::int32_t slot =
         level.index[static_cast<std::size_t>((z * config_.cells_xy + y) * config_.cells_xy + x)];
     if (slot < 0) continue;
-    for (const Surfel& surfel : level.voxels[static_cast<std::size_t>(slot)].surfels) {
+    for (const Surfel& surfel : level.surfels[static_cast<std::size_t>(slot)]) {
       if (surfel.planar && surfel.normal.dot(view) > 0.0F)
         out.surfels[static_cast<std::size_t>(out.size++)] = &surfel;
     }
@@ -231,8 +232,8 @@ void SurfelMap::gather(int k, const Eigen::Vector3f& p_map, const Eigen::Vector3
 
 std::vector<Surfel> SurfelMap::surfels(int level) const {
   std::vector<Surfel> out;
-  for (const Voxel& voxel : levels_[static_cast<std::size_t>(level)].voxels) {
-    for (const Surfel& surfel : voxel.surfels) {
+  for (const auto& sides : levels_[static_cast<std::size_t>(level)].surfels) {
+    for (const Surfel& surfel : sides) {
       if (surfel.planar) out.push_back(surfel);
     }
   }
@@ -242,9 +243,9 @@ std::vector<Surfel> SurfelMap::surfels(int level) const {
 std::vector<SurfelMap::CellMoments> SurfelMap::ownCells(int level) const {
   std::vector<CellMoments> out;
   for (const Voxel& voxel : levels_[static_cast<std::size_t>(level)].voxels) {
-    const auto& sides = voxel.moments.sides;
-    if (sides[0].count + sides[1].count > 0.5 && !coveredByFiner(level, voxel.moments.cell))
-      out.push_back(voxel.moments);
+    const auto& sides = voxel.sides;
+    if (sides[0].count + sides[1].count > 0.5 && !coveredByFiner(level, voxel.cell))
+      out.push_back(voxel);
   }
   return out;
 }
@@ -252,7 +253,7 @@ std::vector<SurfelMap::CellMoments> SurfelMap::ownCells(int level) const {
 double SurfelMap::points() const {
   double sum = 0.0;
   for (const Voxel& voxel : levels_.back().voxels) {
-    for (const SurfelMoments& side : voxel.moments.sides) sum += side.count;
+    for (const SurfelMoments& side : voxel.sides) sum += side.count;
   }
   return sum;
 }

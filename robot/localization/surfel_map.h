@@ -80,15 +80,15 @@ class SurfelMap {
   [[nodiscard]] double points() const;  ///< all that were put in
 
  private:
-  struct Voxel {
-    CellMoments moments;
-    std::array<Surfel, 2> surfels;
-  };
+  using Voxel = CellMoments;
   struct Level {
     double cell_m = 0.0;
     Cell first = Cell::Zero();
     std::vector<std::int32_t> index;  ///< dense; -1 = empty
     std::vector<Voxel> voxels;
+    /// Of the voxels, as of refresh(). Apart from the sums, which are four times as large: gather()
+    /// is bound by memory.
+    std::vector<std::array<Surfel, 2>> surfels;
   };
   struct Share {  ///< what one scan gave to one surfel
     int level;

@@ -28,7 +28,7 @@ struct ObstacleScan {
 class ObstacleMemory {
  public:
   struct Config {
-    double voxel_m = 0.06;
+    double voxel_m = 0.1;
     double max_range_m = 6.0;    ///< from the base
     double min_height_m = 0.12;  ///< above the local ground; lower can be driven over or is noise
     double max_height_m = 2.0;   ///< higher passes over robot and folded arm
