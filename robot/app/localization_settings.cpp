@@ -24,10 +24,10 @@ Localizer::Config LocalizationSettings::localizerConfig() const {
 namespace {
 
 /// The planar surfels of both maps at their finest level, thinned to what a station draws.
-std::shared_ptr<const MapLayer> drawn(const LocalizationMap& map, std::uint64_t version) {
+std::shared_ptr<const MapLayer> drawn(const LocalizationMap& map) {
   auto layer = std::make_shared<MapLayer>();
   layer->name = map.arena;
-  layer->version = version;
+  layer->version = map.checksum;
   for (std::size_t part = 0; part < map.segments.size(); ++part) {
     layer->submaps.push_back(map.segments[part].name);
     for (const Surfel& surfel : map.segments[part].map->surfels(0)) {
@@ -55,8 +55,7 @@ Result<Location> fromMap(const LocalizationSettings& settings, const ArenaMap& a
                      "{} lacks its outdoor or its indoor part; make it anew with kiln-eval map",
                      *file);
   }
-  return Location{std::make_unique<SurfelLocator>(settings.matcher, parts),
-                  drawn(*map, std::hash<std::string>{}(encodeMap(*map)))};
+  return Location{std::make_unique<SurfelLocator>(settings.matcher, parts), drawn(*map)};
 }
 
 }  // namespace

@@ -293,7 +293,9 @@ Result<LocalizationMap> decodeMap(const std::string& bytes, const std::string& n
   std::string raw(raw_size, '\0');
   const std::size_t got = ZSTD_decompress(raw.data(), raw.size(), packed.data(), packed.size());
   if (ZSTD_isError(got) != 0 || got != raw_size) return outOfRange(name);
-  return parse(raw, name);
+  auto map = parse(raw, name);
+  if (map) map->checksum = sum;
+  return map;
 }
 
 Result<void> saveMap(const LocalizationMap& map, const std::string& path, int min_points) {

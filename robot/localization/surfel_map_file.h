@@ -20,6 +20,7 @@ struct MapSegment {
 struct LocalizationMap {
   std::string arena;  ///< name of the arena in whose frame it is
   std::vector<MapSegment> segments;
+  std::uint64_t checksum = 0;  ///< of the file that it was read from; 0: of no file
   /// nullptr if there is none of that name.
   [[nodiscard]] std::shared_ptr<const SurfelMap> find(const std::string& name) const;
 };
