@@ -64,6 +64,10 @@ contains "$work/notes/robotd" "--mission fire --start --report $work/good/report
 [ -s "$work/notes/station" ] || fail "the station had no display"
 until_true 10 ended "$(world_process "$work/good")" || fail "the world outlived the demo"
 
+demo success --record --out "$work/recorded"
+expect_status 0 $? "a recorded mission"
+contains "$work/notes/robotd" "--record $work/recorded/recordings" "the daemon is told to record"
+
 demo failure --out "$work/bad"
 expect_status 1 $? "a mission that failed"
 contains "$work/output" "did not succeed" "a failed mission is called one"
