@@ -1,75 +1,16 @@
-#include <csignal>
-#include <fstream>
-
 #include <nlohmann/json.hpp>
 
-#include "common/config/resources.h"
 #include "common/core/atomic_file.h"
-#include "robot/evaluation/calibration_routine.h"
-#include "robot/evaluation/child_process.h"
+#include "common/core/clock.h"
 #include "robot/evaluation/evaluation.h"
-#include "robot/sim_link/sim_link.h"
+#include "robot/evaluation/yard_calibration.h"
 
 namespace kiln {
 namespace {
 
 using nlohmann::json;
 
-constexpr Duration kStep = std::chrono::milliseconds(8);
 constexpr double kDeg = M_PI / 180.0;
-
-template <class T>
-Result<T> loadResource(const std::string& resource) {
-  T config;
-  auto file = resourcePath(resource);
-  if (!file) return tl::make_unexpected(file.error());
-  if (auto loaded = loadConfig(*file, config); !loaded) return tl::make_unexpected(loaded.error());
-  return config;
-}
-
-/// The routine on the devices of a fresh world; the world's truth afterwards.
-struct Calibrated {
-  CalibrationResult found;
-  json truth;
-};
-
-Result<Calibrated> calibrateIn(int seed, const RobotGeometry& robot, const ArenaMap& yard) {
-  const ScratchFolder scratch("calibrate");
-  const std::string endpoint = "ipc://" + scratch.file("world");
-  auto world = ChildProcess::start(
-      {siblingProgram("kiln-sim"), "--lockstep", "--world", "calibration", "--seed",
-       std::to_string(seed), "--listen", endpoint, "--truth", scratch.file("truth.json")},
-      scratch.file("sim.log"));
-  if (!world) return tl::make_unexpected(world.error());
-  auto found = [&]() -> Result<CalibrationResult> {
-    ManualClock clock;
-    SimLink::Config config;
-    config.endpoint = endpoint;
-    config.lockstep = true;
-    config.version = KILN_VERSION;
-    auto link = SimLink::connect(config, clock);
-    if (!link) return tl::make_unexpected(link.error());
-    clock.advanceTo((*link)->world().now);
-    const auto step = [&]() -> Result<void> {
-      clock.advanceBy(kStep);
-      return (*link)->advanceTo(clock.now());
-    };
-    CalibrationRoutine routine({}, robot, yard,
-                               {(*link)->arm(), (*link)->lidar(), (*link)->thermalCamera(),
-                                (*link)->operatorCamera(), clock, step});
-    return routine.run();
-  }();  // says bye
-  if (!found) return tl::make_unexpected(found.error());
-  world->signal(SIGTERM);
-  (void)world->wait(std::chrono::seconds(5));
-  std::ifstream in(scratch.file("truth.json"));
-  json truth = json::parse(in, nullptr, false);
-  if (truth.is_discarded() || !truth.contains("perturbations")) {
-    return makeError(ErrorCode::NotFound, "kiln-sim left no truth; its last words:\n{}",
-                     tailOf(scratch.file("sim.log"), 6));
-  }
-  return Calibrated{std::move(*found), std::move(truth)};
-}
 
 Eigen::Isometry3d poseFrom(const json& j) {
   const auto& p = j.at("xyz_m");
@@ -113,44 +54,46 @@ struct Errors {
 }  // namespace
 
 Result<EvaluationResult> calibrateSensors(const SweepOptions& options) {
-  auto robot = loadResource<RobotGeometry>("robot_model/bob.yaml");
+  auto robot = nominalRobot();
   if (!robot) return tl::make_unexpected(robot.error());
-  auto yard = loadResource<ArenaMap>("config/arena_calibration.yaml");
-  if (!yard) return tl::make_unexpected(yard.error());
 
   EvaluationResult out;
   out.name = "calibrate";
   Errors lidar{"lidar", "X_flange_lidar"}, thermal{"thermal", "X_flange_thermal"},
       camera{"operator_camera", "X_base_operatorcamera"};
+  std::vector<double> wall_s, simulated_s;
   json runs = json::array();
   for (int seed = options.first_seed; seed <= options.last_seed; ++seed) {
-    auto done = calibrateIn(seed, *robot, *yard);
+    const SteadyClock clock;
+    const Stamp begin = clock.now();
+    auto done = calibrateInYard(seed);
     if (!done) return tl::make_unexpected(done.error());
+    wall_s.push_back(toSeconds(clock.now() - begin));
+    simulated_s.push_back(done->simulated_s);
+    const json truth = json::parse(done->truth_json);
     json run{{"seed", seed}, {"report", done->found.report}};
-    run["lidar"] = lidar.add(done->truth, robot->X_flange_lidar,
-                             done->found.lidar.flange_lidar.X_parent_sensor);
-    run["thermal"] = thermal.add(done->truth, robot->X_flange_thermal,
+    run["lidar"] =
+        lidar.add(truth, robot->X_flange_lidar, done->found.lidar.flange_lidar.X_parent_sensor);
+    run["thermal"] = thermal.add(truth, robot->X_flange_thermal,
                                  done->found.thermal.flange_thermal.X_parent_sensor);
     if (done->found.operator_camera)
-      run["operator_camera"] = camera.add(done->truth, robot->X_base_operatorcamera,
+      run["operator_camera"] = camera.add(truth, robot->X_base_operatorcamera,
                                           done->found.operator_camera->X_parent_sensor);
     runs.push_back(run);
     for (const std::string& line : done->found.report)
       out.notes += fmt::format("seed {}: {}\n", seed, line);
     if (options.out.empty()) continue;
-    RobotCalibration calibration = done->found.calibration;
-    calibration.note = fmt::format("seed {} of the calibration yard", seed);
-    for (const std::string& line : done->found.report) calibration.note += "; " + line;
-    const std::string text =
-        "# Mounting of the sensors as `kiln-eval calibrate` found it; for kiln-robotd "
-        "--calibration.\n" +
-        dumpConfig(calibration);
+    const std::string text = calibrationFile(*done, seed);
     if (auto written = writeFileAtomically(options.out, text); !written)
       return tl::make_unexpected(written.error());
   }
   lidar.append(out.figures);
   thermal.append(out.figures);
   camera.append(out.figures);
+  out.figures.push_back({"operator_camera_refused",
+                         static_cast<double>(runs.size() - camera.after_m.size()), "", "", true});
+  out.figures.push_back({"simulated_median_s", median(simulated_s), "s", "", true});
+  out.figures.push_back({"wall_median_s", median(wall_s), "s", "", true});
   out.runs_json = runs.dump();
   if (!options.out.empty()) out.notes += "written to " + options.out;
   return out;

@@ -1,7 +1,9 @@
 #include "robot/evaluation/calibration_routine.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "common/core/log.h"
 #include "robot/perception/cloud/self_filter.h"
@@ -25,6 +27,12 @@ double evenly(int i, int base) {
   return out;
 }
 
+MoveArm::Config motionConfig(const CalibrationRoutine::Config& config) {
+  MoveArm::Config out;
+  out.speed_scale = config.speed_scale;
+  return out;
+}
+
 double spread(int i, int base, double limit) { return limit * (2.0 * evenly(i, base) - 1.0); }
 
 }  // namespace
@@ -36,7 +44,8 @@ struct CalibrationRoutine::Impl {
         yard(map),
         devices(std::move(d)),
         controller({}, geometry, devices.arm, stop),
-        mover({}, nominal, yard, controller, devices.arm, [this] { return yard.start.pose(); }) {}
+        mover(motionConfig(c), nominal, yard, controller, devices.arm,
+              [this] { return yard.start.pose(); }) {}
 
   Result<void> pass(double seconds) {
     const Stamp until = devices.clock.now() + fromSeconds(seconds);
@@ -49,8 +58,8 @@ struct CalibrationRoutine::Impl {
   }
 
   /// Moves there and comes to rest. Error: Refused when the arm cannot get there.
-  Result<void> moveTo(const Eigen::Isometry3d& X_base_flange) {
-    mover.startPose(X_base_flange, devices.clock.now());
+  Result<void> moveTo(const Vector6d& q) {
+    mover.startJoints(q, devices.clock.now());
     const Stamp limit = devices.clock.now() + fromSeconds(kMotionLimit_s);
     do {
       if (auto passed = pass(0.04); !passed) return passed;
@@ -67,8 +76,14 @@ struct CalibrationRoutine::Impl {
     return nominal.X_base_flange(state->q);
   }
 
+  /// The first `count` of the postures that the arm can take, in an order that makes a short way.
+  [[nodiscard]] std::vector<Vector6d> reachable(
+      int first, int count, const std::function<Eigen::Isometry3d(int)>& posture) const;
+  /// Goes there and measures; a posture the arm cannot reach on its way is left out.
+  Result<int> visit(const std::vector<Vector6d>& postures,
+                    const std::function<Result<void>()>& measure);
   Result<std::vector<StillScan>> collectScans();
-  Result<std::vector<PlateSighting>> collectSightings(const Eigen::Isometry3d& X_flange_lidar);
+  Result<std::vector<PlateSighting>> collectSightings();
   Result<void> scanHere(std::vector<StillScan>& out);
   Result<void> lookHere(std::vector<PlateSighting>& out);
   Result<void> waitForHotPlate();
@@ -123,27 +138,58 @@ Result<void> CalibrationRoutine::Impl::scanHere(std::vector<StillScan>& out) {
   return {};
 }
 
+std::vector<Vector6d> CalibrationRoutine::Impl::reachable(
+    int first, int count, const std::function<Eigen::Isometry3d(int)>& posture) const {
+  constexpr int kTries = 8;  // a posture
+  std::vector<Vector6d> found, out;
+  for (int i = first; static_cast<int>(found.size()) < count && i < first + kTries * count; ++i) {
+    if (const auto q = mover.check(posture(i)); q) found.push_back(*q);
+  }
+  const auto state = devices.arm.state();
+  Vector6d here = state ? state->q : RobotGeometry::radians(nominal.q_drive_deg);
+  while (!found.empty()) {
+    const auto way = [&](const Vector6d& q) { return (q - here).cwiseAbs().maxCoeff(); };
+    const auto nearest =
+        std::min_element(found.begin(), found.end(),
+                         [&](const Vector6d& a, const Vector6d& b) { return way(a) < way(b); });
+    here = *nearest;
+    out.push_back(here);
+    found.erase(nearest);
+  }
+  return out;
+}
+
+Result<int> CalibrationRoutine::Impl::visit(const std::vector<Vector6d>& postures,
+                                            const std::function<Result<void>()>& measure) {
+  int visited = 0;
+  for (const Vector6d& q : postures) {
+    if (auto moved = moveTo(q); !moved) {
+      if (moved.error().code == ErrorCode::Refused) continue;
+      return tl::make_unexpected(moved.error());
+    }
+    if (auto measured = measure(); !measured) return tl::make_unexpected(measured.error());
+    ++visited;
+  }
+  return visited;
+}
+
 Result<std::vector<StillScan>> CalibrationRoutine::Impl::collectScans() {
-  std::vector<StillScan> out;
   const Eigen::Isometry3d X_drive =
       nominal.X_base_flange(RobotGeometry::radians(nominal.q_drive_deg));
-  int postures = 0;
-  for (int i = 0; postures < config.lidar_postures && i < 8 * config.lidar_postures; ++i) {
-    // Around the drive pose, before and above it, turned about all three axes.
+  // Around the drive pose, before and above it, turned about all three axes.
+  const auto posture = [&](int i) {
     Eigen::Isometry3d X = X_drive;
     X.translation() +=
         Eigen::Vector3d(0.25 + spread(i, 2, 0.3), spread(i, 3, 0.35), 0.05 + spread(i, 5, 0.25));
     X.rotate(Eigen::AngleAxisd(spread(i, 7, 100.0 * kDeg), Eigen::Vector3d::UnitY()) *
              Eigen::AngleAxisd(spread(i, 11, 45.0 * kDeg), Eigen::Vector3d::UnitX()) *
              Eigen::AngleAxisd(spread(i, 13, 60.0 * kDeg), Eigen::Vector3d::UnitZ()));
-    if (!mover.check(X)) continue;
-    if (auto moved = moveTo(X); !moved) {
-      if (moved.error().code == ErrorCode::Refused) continue;
-      return tl::make_unexpected(moved.error());
-    }
-    if (auto scanned = scanHere(out); !scanned) return tl::make_unexpected(scanned.error());
-    ++postures;
-  }
+    return X;
+  };
+  std::vector<StillScan> out;
+  const auto visited =
+      visit(reachable(0, config.lidar_postures, posture), [&] { return scanHere(out); });
+  if (!visited) return tl::make_unexpected(visited.error());
   return out;
 }
 
@@ -187,9 +233,7 @@ Result<void> CalibrationRoutine::Impl::waitForHotPlate() {
   return {};
 }
 
-Result<std::vector<PlateSighting>> CalibrationRoutine::Impl::collectSightings(
-    const Eigen::Isometry3d& X_flange_lidar) {
-  (void)X_flange_lidar;
+Result<std::vector<PlateSighting>> CalibrationRoutine::Impl::collectSightings() {
   const Eigen::Isometry3d X_thermal_flange = nominal.X_flange_thermal.pose().inverse();
   const Eigen::Vector3d normal = normalInBase();
   Eigen::Vector3d plate = plateInBase();
@@ -206,30 +250,27 @@ Result<std::vector<PlateSighting>> CalibrationRoutine::Impl::collectSightings(
     return lookAt(from, target) * Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitZ()) *
            X_thermal_flange;
   };
+  constexpr int kRough = 6;
   std::vector<PlateSighting> out;
-  int postures = 0;
   bool hot = false;
-  for (int i = 0; postures < config.thermal_postures && i < 8 * config.thermal_postures; ++i) {
-    const Eigen::Isometry3d X = look(i);
-    if (!mover.check(X)) continue;
-    if (auto moved = moveTo(X); !moved) {
-      if (moved.error().code == ErrorCode::Refused) continue;
-      return tl::make_unexpected(moved.error());
-    }
+  const auto measure = [&]() -> Result<void> {
     if (!hot) {
-      if (auto waited = waitForHotPlate(); !waited) return tl::make_unexpected(waited.error());
+      if (auto waited = waitForHotPlate(); !waited) return waited;
       hot = true;
     }
-    if (auto looked = lookHere(out); !looked) return tl::make_unexpected(looked.error());
-    ++postures;
-    if (postures == 6) {  // where the plate really is, so that it stays in the picture
-      ThermalCalibrator::Config rough = config.thermal;
-      rough.min_sightings = 6;
-      const auto found =
-          ThermalCalibrator(rough).calibrate(out, nominal.X_flange_thermal.pose(), plate, normal);
-      if (found) plate = found->p_base_plate;
-    }
-  }
+    return lookHere(out);
+  };
+  const auto begun = visit(reachable(0, kRough, look), measure);
+  if (!begun) return tl::make_unexpected(begun.error());
+  // Where the plate really is, so that it stays in the picture.
+  ThermalCalibrator::Config rough = config.thermal;
+  rough.min_sightings = kRough;
+  if (const auto found =
+          ThermalCalibrator(rough).calibrate(out, nominal.X_flange_thermal.pose(), plate, normal))
+    plate = found->p_base_plate;
+  const auto visited =
+      visit(reachable(8 * kRough, config.thermal_postures - kRough, look), measure);
+  if (!visited) return tl::make_unexpected(visited.error());
   return out;
 }
 
@@ -271,6 +312,37 @@ std::string line(const char* what, const Extrinsics& found, const PoseConfig& no
       found.sigma_rad.maxCoeff() / kDeg);
 }
 
+/// What a robot would believe of it; error: what it would not.
+Result<CalibrationResult> summed(const RobotGeometry& nominal, const LidarCalibration& lidar,
+                                 const ThermalCalibration& thermal,
+                                 const Result<Extrinsics>& camera) {
+  CalibrationResult out{lidar, thermal, std::nullopt, RobotCalibration::of(nominal), {}};
+  RobotCalibration& found = out.calibration;
+  found.X_flange_lidar = poseConfig(lidar.flange_lidar.X_parent_sensor);
+  found.X_flange_thermal = poseConfig(thermal.flange_thermal.X_parent_sensor);
+  found.lidar_range_bias_m.assign(lidar.range_bias_m.begin(), lidar.range_bias_m.end());
+  if (auto believed = found.applyTo(nominal); !believed)
+    return tl::make_unexpected(believed.error());
+  std::string camera_line;
+  if (camera) {
+    const PoseConfig before =
+        std::exchange(found.X_base_operatorcamera, poseConfig(camera->X_parent_sensor));
+    camera_line = line("operator camera", *camera, nominal.X_base_operatorcamera);
+    if (const auto believed = found.applyTo(nominal); believed) {
+      out.operator_camera = *camera;
+    } else {  // shows pictures, steers nothing: the others need not wait for it
+      found.X_base_operatorcamera = before;
+      camera_line = "operator camera: stays nominal; " + believed.error().message;
+    }
+  } else {
+    camera_line = "operator camera: stays nominal; " + camera.error().message;
+  }
+  out.report = {line("LiDAR", lidar.flange_lidar, nominal.X_flange_lidar),
+                line("thermal camera", thermal.flange_thermal, nominal.X_flange_thermal),
+                camera_line, "nozzle: not observable, no sensor on board sees it; stays nominal"};
+  return out;
+}
+
 }  // namespace
 
 Result<CalibrationResult> CalibrationRoutine::run() {
@@ -286,31 +358,21 @@ Result<CalibrationResult> CalibrationRoutine::run() {
   const auto camera = m.lookAtDeck();
   auto scans = m.collectScans();
   if (!scans) return tl::make_unexpected(scans.error());
-  logger("calibrate")->info("{} scans taken", scans->size());
+  logger("calibrate")
+      ->info("{} scans taken in {:.0f} s", scans->size(), toSeconds(m.devices.clock.now()));
   auto lidar = LidarCalibrator(m.config.lidar).calibrate(*scans, m.nominal.X_flange_lidar.pose());
   if (!lidar) return tl::make_unexpected(lidar.error());
-  auto sightings = m.collectSightings(lidar->flange_lidar.X_parent_sensor);
+  auto sightings = m.collectSightings();
   if (!sightings) return tl::make_unexpected(sightings.error());
-  logger("calibrate")->info("the hot plate was seen {} times", sightings->size());
+  logger("calibrate")
+      ->info("the hot plate was seen {} times; {:.0f} s", sightings->size(),
+             toSeconds(m.devices.clock.now()));
   auto thermal = ThermalCalibrator(m.config.thermal)
                      .calibrate(*sightings, m.nominal.X_flange_thermal.pose(), m.plateInBase(),
                                 m.normalInBase());
   if (!thermal) return tl::make_unexpected(thermal.error());
 
-  CalibrationResult out{*lidar, *thermal, std::nullopt, RobotCalibration::of(m.nominal), {}};
-  out.calibration.X_flange_lidar = poseConfig(lidar->flange_lidar.X_parent_sensor);
-  out.calibration.X_flange_thermal = poseConfig(thermal->flange_thermal.X_parent_sensor);
-  out.calibration.lidar_range_bias_m.assign(lidar->range_bias_m.begin(), lidar->range_bias_m.end());
-  out.report = {line("LiDAR", lidar->flange_lidar, m.nominal.X_flange_lidar),
-                line("thermal camera", thermal->flange_thermal, m.nominal.X_flange_thermal),
-                camera ? line("operator camera", *camera, m.nominal.X_base_operatorcamera)
-                       : "operator camera: stays nominal; " + camera.error().message,
-                "nozzle: not observable, no sensor on board sees it; stays nominal"};
-  if (camera) {
-    out.operator_camera = *camera;
-    out.calibration.X_base_operatorcamera = poseConfig(camera->X_parent_sensor);
-  }
-  return out;
+  return summed(m.nominal, *lidar, *thermal, camera);
 }
 
 }  // namespace kiln

@@ -45,11 +45,12 @@ struct CalibrationResult {
 class CalibrationRoutine {
  public:
   struct Config {
-    int lidar_postures = 26;
-    int scans_a_posture = 2;
-    int thermal_postures = 26;
-    int images_a_posture = 4;
-    double settle_s = 0.4;            ///< after a motion, before anything is measured
+    int lidar_postures = 14;
+    int scans_a_posture = 1;
+    int thermal_postures = 18;
+    int images_a_posture = 2;
+    double speed_scale = 0.5;         ///< of the joint limits; the base stands, nobody is near
+    double settle_s = 0.3;            ///< after a motion, before anything is measured
     double plate_threshold_c = 75.0;  ///< the plate must be hotter
     double plate_wait_s = 120.0;      ///< for it
     LidarCalibrator::Config lidar;

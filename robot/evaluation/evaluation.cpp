@@ -14,6 +14,11 @@ const std::vector<Evaluation>& evaluations() {
        "believed against true pose over fire missions, and odometry alone on the same way",
        evaluateLocalization,
        {1, 5, 1, ""}},
+      {"relocalization",
+       "50 wrong start poses a seed, up to 1 m and 20 deg off, all along a recorded mission: found "
+       "again, or said to be lost?",
+       evaluateRelocalization,
+       {2, 5, 1, ""}},
       {"fallback",
        "litres delivered by hand commands alone over the operator link, real time",
        evaluateFallback,

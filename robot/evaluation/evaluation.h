@@ -15,6 +15,7 @@ struct SweepOptions {
   std::string out;           ///< where a calibration writes its result
   std::string world;         ///< world file; empty = the evaluation's own
   std::string localization;  ///< method for kiln-robotd; empty = its config's
+  bool calibrate = true;     ///< missions of a sweep: each seed's robot is calibrated first
 };
 
 /// One named evaluation of scenario.md section 7 or a calibration.
@@ -28,6 +29,7 @@ struct Evaluation {
 
 [[nodiscard]] Result<EvaluationResult> evaluateFire(const SweepOptions& options);
 [[nodiscard]] Result<EvaluationResult> evaluateLocalization(const SweepOptions& options);
+[[nodiscard]] Result<EvaluationResult> evaluateRelocalization(const SweepOptions& options);
 [[nodiscard]] Result<EvaluationResult> evaluateFallback(const SweepOptions& options);
 [[nodiscard]] Result<EvaluationResult> evaluateStop(const SweepOptions& options);
 [[nodiscard]] Result<EvaluationResult> evaluatePlaceCheck(const SweepOptions& options);

@@ -63,10 +63,12 @@ Result<EvaluationResult> evaluateFire(const SweepOptions& options) {
   };
   out.runs_json = runs.dump();
   out.notes = fmt::format(
-      "{} world, {} seeds, {} at a time; {} heat estimates within 1.0 m and 10 deg. baseline = the "
+      "{} world, {} seeds, {}, {} at a time; {} heat estimates within 1.0 m and 10 deg. baseline = "
+      "the "
       "paper's "
       "bounding-box distance on the same frames.",
-      flat ? "flat" : "full", results.size(), std::max(1, options.jobs), heat.range_m.size());
+      flat ? "flat" : "full", results.size(), options.calibrate ? "calibrated" : "not calibrated",
+      std::max(1, options.jobs), heat.range_m.size());
   return out;
 }
 

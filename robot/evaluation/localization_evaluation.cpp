@@ -70,9 +70,10 @@ Result<EvaluationResult> evaluateLocalization(const SweepOptions& options) {
   };
   out.runs_json = runs.dump();
   out.notes = fmt::format(
-      "{} poses of {} missions against the world's truth, 5 a second; odometry alone = the same "
+      "{} poses of {} missions of {} robots against the world's truth, 5 a second; odometry alone "
+      "= the same "
       "wheels from the nominal start pose.",
-      errors.position_m.size(), runs.size());
+      errors.position_m.size(), runs.size(), options.calibrate ? "calibrated" : "uncalibrated");
   return out;
 }
 

@@ -9,6 +9,7 @@
 #include "robot/evaluation/map_command.h"
 #include "robot/evaluation/mission_run.h"
 #include "robot/evaluation/trajectory_figure.h"
+#include "robot/evaluation/yard_calibration.h"
 
 namespace {
 
@@ -118,6 +119,8 @@ int main(int argc, char** argv) {
                   "fault to inject, as kiln-sim --fault takes it");
   run->add_option("--robot-arg", run_options.robot_args,
                   "passed on to kiln-robotd, e.g. --robot-arg=--localization=odometry");
+  bool calibrate = false;
+  run->add_flag("--calibrate", calibrate, "calibrate the sensors of this seed's robot first");
   run->add_option("--wall-limit-s", run_options.wall_limit_s, "end a run that takes longer")
       ->default_val(1200.0);
 
@@ -149,6 +152,11 @@ int main(int argc, char** argv) {
     sub->add_option("--world", sweep.world, "world file (default: the evaluation's own)")
         ->check(CLI::ExistingFile);
     sub->add_option("--localization", sweep.localization, "surfel_map, walls or odometry");
+    if (evaluation.name == "fire" || evaluation.name == "localization" ||
+        evaluation.name == "relocalization")
+      sub->add_flag("--calibrate,!--no-calibrate", sweep.calibrate,
+                    "calibrate the sensors of each seed's robot first (default; kept in "
+                    "~/.cache/kiln/calibration), or drive with nominal mountings");
     sub->add_option("--out", sweep.out, "where a calibration writes its result");
     sweeps.emplace_back(sub, &evaluation);
   }
@@ -160,9 +168,9 @@ int main(int argc, char** argv) {
     return kSuccess;
   }
   if (*map) {
-    const auto report = makeMap(map_options);
-    if (!report) return fail(report.error());
-    fmt::print("{}", *report);
+    const auto made = makeMap(map_options);
+    if (!made) return fail(made.error());
+    fmt::print("{}", *made);
     return kSuccess;
   }
   if (*run) {
@@ -171,6 +179,11 @@ int main(int argc, char** argv) {
       faults.insert(faults.end(), {"--fault", fault});
     run_options.world_args = faults;
     run_options.trace = !figure.empty();
+    if (calibrate) {
+      const auto file = calibrationOf(run_options.seed, calibrationCache());
+      if (!file) return fail(file.error());
+      run_options.robot_args.insert(run_options.robot_args.end(), {"--calibration", *file});
+    }
     return runOneMission(run_options, report, figure);
   }
   for (const auto& [sub, evaluation] : sweeps) {
@@ -179,6 +192,7 @@ int main(int argc, char** argv) {
     options.out = sweep.out;
     options.world = sweep.world;
     options.localization = sweep.localization;
+    options.calibrate = sweep.calibrate;
     if (jobs > 0) options.jobs = jobs;
     if (!parseSeeds(seeds, options))
       return fail({ErrorCode::InvalidInput, "--seeds must be A-B with A <= B, e.g. 1-20"});

@@ -4,7 +4,23 @@
 #include <atomic>
 #include <thread>
 
+#include "robot/evaluation/yard_calibration.h"
+
 namespace kiln {
+
+namespace {
+
+/// The robot of a seed is calibrated once, before its day.
+Result<MissionRun> runCalibrated(MissionRunOptions run, const SweepOptions& options) {
+  if (options.calibrate) {
+    auto file = calibrationOf(run.seed, calibrationCache());
+    if (!file) return tl::make_unexpected(file.error());
+    run.robot_args.insert(run.robot_args.end(), {"--calibration", *file});
+  }
+  return runMission(run);
+}
+
+}  // namespace
 
 std::vector<SeedResult> runSeeds(const SweepOptions& options) {
   const int count = std::max(0, options.last_seed - options.first_seed + 1);
@@ -23,7 +39,7 @@ std::vector<SeedResult> runSeeds(const SweepOptions& options) {
         else if (isFlat(options))
           run.robot_args = {"--localization", "walls"};  // the shipped map has the ramp
         SeedResult& result = results[static_cast<std::size_t>(i)];
-        result = {run.seed, runMission(run)};
+        result = {run.seed, runCalibrated(run, options)};
         fmt::print(
             stderr, "seed {:>3}: {}\n", run.seed,
             result.run ? (result.run->success ? "ok" : "FAILED") : result.run.error().message);

@@ -18,7 +18,8 @@ struct SeedResult {
 }
 
 /// Runs the fire mission on all seeds in lockstep, with the truth trace, `options.jobs` at a time;
-/// results in seed order whatever the timing.
+/// results in seed order whatever the timing. With `options.calibrate` each seed's robot goes
+/// through the calibration yard first, or takes what it found there before (yard_calibration.h).
 [[nodiscard]] std::vector<SeedResult> runSeeds(const SweepOptions& options);
 
 }  // namespace kiln

@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
-#include <sstream>
 
-#include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
 
 #include "common/geom/pose.h"
+#include "robot/evaluation/base_trace.h"
 
 namespace kiln {
 namespace {
@@ -18,41 +16,6 @@ using nlohmann::json;
 constexpr double kNear_m = 0.5;
 constexpr double kRest_m = 0.002;  ///< between two samples
 constexpr double kDeg = M_PI / 180.0;
-
-struct TruthSample {
-  double t_s = 0.0;
-  Pose2 X_map_base;
-};
-
-std::vector<TruthSample> parseBaseTrace(const std::string& jsonl) {
-  std::vector<TruthSample> out;
-  std::istringstream lines(jsonl);
-  for (std::string line; std::getline(lines, line);) {
-    const json sample = json::parse(line, nullptr, false);
-    if (sample.is_discarded() || !sample.contains("base")) continue;
-    const auto& p = sample["base"]["xyz_m"];
-    const auto& q = sample["base"]["wxyz"];
-    Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
-    X.translation() = Eigen::Vector3d(p[0].get<double>(), p[1].get<double>(), p[2].get<double>());
-    X.linear() = Eigen::Quaterniond(q[0].get<double>(), q[1].get<double>(), q[2].get<double>(),
-                                    q[3].get<double>())
-                     .toRotationMatrix();
-    out.push_back({sample["t"].get<double>(), projectToGround(X)});
-  }
-  return out;
-}
-
-std::optional<Pose2> trueAt(const std::vector<TruthSample>& trace, double t_s) {
-  const auto after =
-      std::lower_bound(trace.begin(), trace.end(), t_s,
-                       [](const TruthSample& sample, double t) { return sample.t_s < t; });
-  if (after == trace.begin() || after == trace.end()) return std::nullopt;
-  const TruthSample& a = *(after - 1);
-  const double s = (t_s - a.t_s) / std::max(1e-9, after->t_s - a.t_s);
-  const Pose2 &p = a.X_map_base, &q = after->X_map_base;
-  return Pose2{p.x_m + s * (q.x_m - p.x_m), p.y_m + s * (q.y_m - p.y_m),
-               wrapAngle(p.yaw_rad + s * wrapAngle(q.yaw_rad - p.yaw_rad))};
-}
 
 Pose2 poseAt(const json& row, std::size_t first) {
   return {row[first].get<double>(), row[first + 1].get<double>(), row[first + 2].get<double>()};
@@ -68,42 +31,56 @@ bool nearWorkPose(const Pose2& X, const PosePlaces& places) {
 
 }  // namespace
 
-void appendPoseErrors(const MissionRun& run, const PosePlaces& places, PoseErrors& errors) {
+std::vector<PoseSample> poseSamples(const MissionRun& run) {
   const json reports = json::parse(run.robot_json);
-  const auto trace = parseBaseTrace(run.trace_jsonl);
+  const BaseTrace trace(run.trace_jsonl);
+  std::vector<PoseSample> out;
+  for (const json& row : reports["robot"].value("track", json::array())) {
+    const double t_s = row[0].get<double>();
+    const auto truth = trace.at(t_s);
+    if (!truth) continue;
+    PoseSample sample;
+    sample.t_s = t_s;
+    sample.truth = *truth;
+    sample.believed = poseAt(row, 1);
+    sample.odometry = poseAt(row, 4);
+    sample.located = row[7].get<int>() == 1;
+    sample.resets = row[9].get<int>();
+    sample.position_m = apart(sample.believed, *truth);
+    sample.yaw_deg = std::abs(wrapAngle(sample.believed.yaw_rad - truth->yaw_rad)) / kDeg;
+    out.push_back(sample);
+  }
+  return out;
+}
+
+void appendPoseErrors(const MissionRun& run, const PosePlaces& places, PoseErrors& errors) {
   bool located = false;
   int resets = -1;
   Pose2 X_map_odom, before;
-  for (const json& row : reports["robot"].value("track", json::array())) {
-    const double t_s = row[0].get<double>();
-    const auto truth = trueAt(trace, t_s);
-    if (!truth) continue;
-    const Pose2 believed = poseAt(row, 1), odometry = poseAt(row, 4);
-    if (row[9].get<int>() != resets) {  // put down anew: odometry starts from the nominal pose
-      resets = row[9].get<int>();
+  for (const PoseSample& sample : poseSamples(run)) {
+    const Pose2& truth = sample.truth;
+    if (sample.resets != resets) {  // put down anew: odometry starts from the nominal pose
+      resets = sample.resets;
       located = false;
-      X_map_odom = inverse(odometry);
+      X_map_odom = inverse(sample.odometry);
     }
-    const bool now_located = row[7].get<int>() == 1;
-    if (located && !now_located) ++errors.lost;
-    located = now_located;
+    if (located && !sample.located) ++errors.lost;
+    located = sample.located;
     if (!located) continue;
-    const double position_m = apart(believed, *truth);
-    const double yaw_deg = std::abs(wrapAngle(believed.yaw_rad - truth->yaw_rad)) / kDeg;
-    const double odometry_m = apart(X_map_odom * odometry, *truth);
-    errors.position_m.push_back(position_m);
-    errors.yaw_deg.push_back(yaw_deg);
+    const double odometry_m = apart(X_map_odom * sample.odometry, truth);
+    errors.position_m.push_back(sample.position_m);
+    errors.yaw_deg.push_back(sample.yaw_deg);
     errors.odometry_m.push_back(odometry_m);
-    if (std::abs(truth->x_m - places.doorway_x_m) < kNear_m) {
-      errors.doorway_m.push_back(position_m);
-      errors.doorway_deg.push_back(yaw_deg);
+    if (std::abs(truth.x_m - places.doorway_x_m) < kNear_m) {
+      errors.doorway_m.push_back(sample.position_m);
+      errors.doorway_deg.push_back(sample.yaw_deg);
       errors.odometry_doorway_m.push_back(odometry_m);
     }
-    if (apart(*truth, before) < kRest_m && nearWorkPose(*truth, places)) {
-      errors.fire_m.push_back(position_m);
-      errors.fire_deg.push_back(yaw_deg);
+    if (apart(truth, before) < kRest_m && nearWorkPose(truth, places)) {
+      errors.fire_m.push_back(sample.position_m);
+      errors.fire_deg.push_back(sample.yaw_deg);
     }
-    before = *truth;
+    before = truth;
   }
 }
 

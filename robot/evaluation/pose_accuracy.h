@@ -2,9 +2,23 @@
 
 #include <vector>
 
+#include "common/geom/pose.h"
 #include "robot/evaluation/mission_run.h"
 
 namespace kiln {
+
+/// What the robot believed of its pose, and the truth, at one moment.
+struct PoseSample {
+  double t_s = 0.0;
+  Pose2 truth, believed;
+  Pose2 odometry;                          ///< wheels alone, in odom
+  double position_m = 0.0, yaw_deg = 0.0;  ///< error of the belief
+  bool located = false;                    ///< false: the robot says that it is lost
+  int resets = 0;
+};
+
+/// Five a second, over the whole run. @pre run.trace_jsonl was asked for.
+[[nodiscard]] std::vector<PoseSample> poseSamples(const MissionRun& run);
 
 /// Believed against true pose of the base, five samples a second, from the first fix after each
 /// reset on.

@@ -7,6 +7,7 @@
 #include "common/record/run_topics.h"
 #include "common/wire/recording.h"
 #include "robot/app/state_history.h"
+#include "robot/perception/cloud/range_bias.h"
 #include "robot/perception/cloud/self_filter.h"
 #include "robot/perception/cloud/undistort.h"
 
@@ -69,7 +70,9 @@ class ScanPreparation {
                                robot_.X_base_flange(sample->q) * robot_.X_flange_lidar.pose());
     }
     RecordedScan out;
-    out.scan_base = undistort(filter_.filter(scan, arm).cloud, X_base_lidar, "base");
+    PointCloud cloud = filter_.filter(scan, arm).cloud;
+    correctRanges(cloud, robot_.lidar_range_bias_m);
+    out.scan_base = undistort(cloud, X_base_lidar, "base");
     out.X_odom_base = first->X_odom_base;
     out.p_base_sensor = X_base_lidar.at(scan.stamp).translation();
     out.resets = resets_;

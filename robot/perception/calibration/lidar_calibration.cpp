@@ -39,8 +39,7 @@ struct Unknowns {
 struct PointToPlane {
   const Measured& m;
   const Patch& patch;
-  const Eigen::Isometry3d& X_base_flange;
-  const Eigen::Isometry3d& X_flange_lidar;
+  Eigen::Isometry3d X_base_lidar;  ///< with the nominal mounting
   double sigma_m;
 
   template <class T>
@@ -52,8 +51,8 @@ struct PointToPlane {
     ceres::AngleAxisRotatePoint(mount, p, turned);
     const Eigen::Matrix<T, 3, 1> moved(turned[0] + mount[3], turned[1] + mount[4],
                                        turned[2] + mount[5]);
-    const Eigen::Isometry3d X = X_base_flange * X_flange_lidar;
-    const Eigen::Matrix<T, 3, 1> p_base = X.linear().cast<T>() * moved + X.translation().cast<T>();
+    const Eigen::Matrix<T, 3, 1> p_base =
+        X_base_lidar.linear().cast<T>() * moved + X_base_lidar.translation().cast<T>();
     const Eigen::Matrix<T, 3, 1> from = p_base - patch.centre.cast<T>();
     const Eigen::Matrix<T, 3, 1> n =
         (patch.n.cast<T>() + bend[0] * patch.u.cast<T>() + bend[1] * patch.v.cast<T>())
@@ -237,7 +236,7 @@ void addResiduals(const LidarCalibrator::Config& config, std::vector<Patch>& pat
       const StillScan& scan = scans[static_cast<std::size_t>(m->posture)];
       problem.AddResidualBlock(
           new ceres::AutoDiffCostFunction<PointToPlane, 1, 6, 1, 3>(
-              new PointToPlane{*m, patch, scan.X_base_flange, X_flange_lidar, config.noise_m}),
+              new PointToPlane{*m, patch, scan.X_base_flange * X_flange_lidar, config.noise_m}),
           new ceres::CauchyLoss(2.0), unknowns.mount.data(),
           &unknowns.bias_m[static_cast<std::size_t>(m->ring)], patch.bend.data());
     }

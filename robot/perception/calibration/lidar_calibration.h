@@ -32,7 +32,7 @@ class LidarCalibrator {
   struct Config {
     double cell_m = 0.4;  ///< in which a flat piece is looked for
     double max_range_m = 8.0;
-    double thin_m = 0.05;   ///< a point a cube and scan
+    double thin_m = 0.10;   ///< a point a cube and scan
     double flat_m = 0.022;  ///< rms of a piece that counts as flat; three times that at first
     double wide_m = 0.08;   ///< its extent along both axes, rms
     int min_points = 24;
