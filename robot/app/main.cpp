@@ -28,6 +28,7 @@ struct Arguments {
   std::string listen = "tcp://127.0.0.1:7300";
   std::string report;
   std::string localization;
+  bool flat_ground = false;
   std::string record_dir;
   double replay_speed = 1.0;
   bool record = false;
@@ -54,6 +55,9 @@ void addOptions(CLI::App& app, Arguments& a) {
       ->check(CLI::Range(1.0, 400.0));
   app.add_option("--localization", a.localization, "how to locate (default: the config's)")
       ->check(CLI::IsMember({"surfel_map", "walls", "odometry"}));
+  app.add_flag("--flat-ground", a.flat_ground,
+               "the arena has no ramp and no edge (kiln-sim --world fire_flat; with "
+               "--localization walls, the shipped map has both)");
   app.add_option("--mission", a.robot.mission, "mission")
       ->default_val("fire")
       ->check(CLI::IsMember({"fire"}));
@@ -106,6 +110,7 @@ Result<RobotSettings> loadSettings(const Arguments& a) {
   if (auto loaded = loadConfig(file, settings); !loaded) return tl::make_unexpected(loaded.error());
   if (a.heat_threshold_c > 0.0) settings.heat_detector.threshold_c = a.heat_threshold_c;
   if (!a.localization.empty()) settings.localization.method = a.localization;
+  settings.flat_ground = settings.flat_ground || a.flat_ground;
   return settings;
 }
 

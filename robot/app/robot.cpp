@@ -314,6 +314,7 @@ Result<std::unique_ptr<Robot>> Robot::create(const RobotSettings& settings,
   }
   auto arena = loadResource<ArenaMap>(settings.arena);
   if (!arena) return tl::make_unexpected(arena.error());
+  if (settings.flat_ground) arena->approach = {};
   auto spray = loadResource<SprayCalibration>(settings.spray_calibration);
   if (!spray) return tl::make_unexpected(spray.error());
   if (auto valid = spray->validate(); !valid) return tl::make_unexpected(valid.error());

@@ -6,6 +6,10 @@ void RobotSettings::visit(ConfigArchive& a) {
   a.field("name", name, "shown to operators");
   a.field("geometry", geometry, "resource file of the robot's geometry");
   a.field("arena", arena, "resource file of the nominal arena");
+  a.field(
+      "flat_ground", flat_ground,
+      "the arena without its ramp and edge, as in worlds/fire_flat.yaml; the shipped map has both: "
+      "locate against the walls there");
   a.field("spray_calibration", spray_calibration,
           "resource file written by kiln-eval spray-calibration");
   a.field("mission_limit_s", mission_limit_s, "s", 10, 36000, "mission clock");

@@ -24,6 +24,7 @@ struct RobotSettings {
   std::string name = "Bob";
   std::string geometry = "robot_model/bob.yaml";    ///< resource
   std::string arena = "config/arena_kitchen.yaml";  ///< resource
+  bool flat_ground = false;                         ///< the arena without its ramp and edge
   std::string spray_calibration = "config/spray_calibration.yaml";
   double mission_limit_s = 900.0;
   double camera_rate_hz = 10.0;

@@ -43,7 +43,7 @@ Result<EvaluationResult> evaluateFire(const SweepOptions& options) {
   }
   EvaluationResult out;
   out.name = "fire";
-  const bool flat = isFlat(options);
+  const bool flat = isFlat(options.world);
   if (flat) out.goal_set = "fire_flat";
   out.figures = {
       {"success_rate", successes / std::max<double>(1, static_cast<double>(results.size())), "", "",

@@ -1,5 +1,6 @@
 #include "robot/evaluation/mission_run.h"
 
+#include <algorithm>
 #include <csignal>
 #include <fstream>
 #include <sstream>
@@ -54,6 +55,11 @@ struct Folder {
     argv.insert(argv.end(), options.world_args.begin(), options.world_args.end());
     return argv;
   }
+  [[nodiscard]] bool choosesLocalization() const {
+    return std::any_of(
+        options.robot_args.begin(), options.robot_args.end(),
+        [](const std::string& argument) { return argument.starts_with("--localization"); });
+  }
   [[nodiscard]] std::vector<std::string> robotCommand() const {
     std::vector<std::string> argv{program("kiln-robotd"),
                                   "--sim",
@@ -69,6 +75,10 @@ struct Folder {
                                   "--listen",
                                   "ipc://" + file("link")};
     if (options.lockstep) argv.emplace_back("--lockstep");
+    if (isFlat(options.world)) argv.emplace_back("--flat-ground");
+    if (isFlat(options.world) && !choosesLocalization()) {
+      argv.insert(argv.end(), {"--localization", "walls"});  // the shipped map has the ramp
+    }
     argv.insert(argv.end(), options.robot_args.begin(), options.robot_args.end());
     return argv;
   }

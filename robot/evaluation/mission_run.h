@@ -33,6 +33,11 @@ struct MissionRun {
   [[nodiscard]] double realTimeFactor() const { return wall_s > 0 ? simulated_s / wall_s : 0.0; }
 };
 
+/// The world without ramp and edge, for which no map is shipped.
+[[nodiscard]] inline bool isFlat(const std::string& world) {
+  return world.find("fire_flat") != std::string::npos;
+}
+
 /// Starts kiln-sim and kiln-robotd on private sockets, waits for both, merges what the robot says
 /// of itself with what the world knows. Success = mission ended as finished, at least 1 l through
 /// the burning place's opening, no collision.

@@ -36,8 +36,6 @@ std::vector<SeedResult> runSeeds(const SweepOptions& options) {
         run.world = options.world;
         if (!options.localization.empty())
           run.robot_args = {"--localization", options.localization};
-        else if (isFlat(options))
-          run.robot_args = {"--localization", "walls"};  // the shipped map has the ramp
         SeedResult& result = results[static_cast<std::size_t>(i)];
         result = {run.seed, runCalibrated(run, options)};
         fmt::print(

@@ -12,11 +12,6 @@ struct SeedResult {
   Result<MissionRun> run = MissionRun{};
 };
 
-/// The world without ramp and edge, for which no map is shipped.
-[[nodiscard]] inline bool isFlat(const SweepOptions& options) {
-  return options.world.find("fire_flat") != std::string::npos;
-}
-
 /// Runs the fire mission on all seeds in lockstep, with the truth trace, `options.jobs` at a time;
 /// results in seed order whatever the timing. With `options.calibrate` each seed's robot goes
 /// through the calibration yard first, or takes what it found there before (yard_calibration.h).

@@ -51,7 +51,7 @@ std::span<const FaultKind> faultKinds() {
       {"thermal_freeze", "", {}, false, "the thermal camera repeats its last picture"},
       {"lidar_dropout", "", {}, false, "no scans arrive"},
       {"camera_freeze", "", {}, false, "no operator pictures arrive"},
-      {"arm_obstacle", "", {}, false, "a box of 0.2 m stands 0.3 m before the arm's flange"},
+      {"arm_obstacle", "", {}, false, "a padded box of 0.2 m appears in the way of the moving arm"},
       {"protective_stop", "", {}, false, "the arm's own controller stops it"},
       {"kidnap",
        "X_M,Y_M,YAW_DEG",

@@ -28,6 +28,9 @@ std::array<LinkInertia, 6> linkInertias(const UrKinematics& k) {
 // Collision bits: 1 arena, 2 chassis and arm, 4 wheels. Wheels meet the arena alone: they sit
 // inside the chassis box.
 constexpr const char* kArenaBits = R"(contype="1" conaffinity="0")";
+// Foam: pushes back little at first and more over 10 cm. A motion of 0.5 m/s under a guard of 60 N
+// then stops before the 150 N of a protective stop.
+constexpr const char* kPadding = R"(solref="0.1 1" solimp="0.02 0.5 0.1")";
 constexpr const char* kRobotBits = R"(contype="2" conaffinity="3")";
 constexpr const char* kWheelBits = R"(contype="4" conaffinity="1")";
 
@@ -93,10 +96,11 @@ void writeArena(Writer& w, const TrueArena& arena) {
   for (const TrueFirePlace& place : arena.fire_places) {
     for (const SolidBox& b : place.boxes) add(b);
   }
-  // The scripted arm obstacle waits below the floor, where nothing collides.
+  // The scripted arm obstacle waits below the floor, where nothing collides. It is padded: its
+  // softness wins in every contact.
   w.line(
-      R"(<body name="{0}" mocap="true" pos="0 0 -5"><geom name="{0} #{1}" type="box" size=".1 .1 .1" {2}/></body>)",
-      names::kObstacle, index, kArenaBits);
+      R"(<body name="{0}" mocap="true" pos="0 0 -5"><geom name="{0} #{1}" type="box" size="{2} {2} {2}" priority="1" {3} {4}/></body>)",
+      names::kObstacle, index, 0.5 * kObstacleSize_m, kPadding, kArenaBits);
 }
 
 /// A wheel is a cylinder for its inertia and touches the ground with the two rims of its tread, as

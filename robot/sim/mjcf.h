@@ -6,6 +6,9 @@
 
 namespace kiln::sim {
 
+/// Each side of the scripted arm obstacle (arm_obstacle.h), for physics and rays.
+inline constexpr double kObstacleSize_m = 0.2;
+
 /// Names shared by the model text and the code that reads results.
 namespace names {
 inline constexpr const char* kBase = "base";

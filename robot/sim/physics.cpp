@@ -15,6 +15,8 @@
 namespace kiln::sim {
 namespace {
 
+const Eigen::Vector3d kBelowTheFloor(0, 0, -5);  // as in the model
+
 /// MuJoCo calls this and must not get control back: its state is undefined afterwards.
 void onMujocoError(const char* message) {
   logger("sim.physics")
@@ -74,7 +76,7 @@ struct Physics::Impl {
   mjModel* m = nullptr;
   mjData* d = nullptr;
   std::vector<GeomInfo> geoms;
-  int base_body = 0, flange_body = 0, obstacle_mocap = 0;
+  int base_body = 0, flange_body = 0, obstacle_body = 0, obstacle_mocap = 0;
   int base_qpos = 0, base_qvel = 0;
   std::array<int, 4> steer_joint{}, drive_joint{};
   std::array<int, 6> arm_joint{};
@@ -90,6 +92,8 @@ struct Physics::Impl {
   void resolveNames();
   void placeBase(const Eigen::Isometry3d& X_map_base);
   void collectContacts();
+  void setObstacle(const Eigen::Vector3d& p_map);
+  [[nodiscard]] bool isObstacle(int geom) const { return m->geom_bodyid[geom] == obstacle_body; }
   [[nodiscard]] JointState joint(int id) const {
     return {d->qpos[m->jnt_qposadr[id]], d->qvel[m->jnt_dofadr[id]]};
   }
@@ -99,7 +103,8 @@ void Physics::Impl::resolveNames() {
   geoms = describeGeoms(m);
   base_body = mj_name2id(m, mjOBJ_BODY, names::kBase);
   flange_body = mj_name2id(m, mjOBJ_BODY, names::kFlange);
-  obstacle_mocap = m->body_mocapid[mj_name2id(m, mjOBJ_BODY, names::kObstacle)];
+  obstacle_body = mj_name2id(m, mjOBJ_BODY, names::kObstacle);
+  obstacle_mocap = m->body_mocapid[obstacle_body];
   base_qpos = m->jnt_qposadr[m->body_jntadr[base_body]];
   base_qvel = m->jnt_dofadr[m->body_jntadr[base_body]];
   for (std::size_t i = 0; i < 4; ++i) {
@@ -196,13 +201,11 @@ void Physics::Impl::placeBase(const Eigen::Isometry3d& X) {
 void Physics::carryTo(const Eigen::Isometry3d& X, const Vector6d& q) {
   mjModel* m = impl_->m;
   mjData* d = impl_->d;
-  const double obstacle_z = d->mocap_pos[3 * impl_->obstacle_mocap + 2];
-  const Eigen::Vector3d obstacle(d->mocap_pos[3 * impl_->obstacle_mocap],
-                                 d->mocap_pos[3 * impl_->obstacle_mocap + 1], obstacle_z);
+  const Eigen::Vector3d obstacle(d->mocap_pos + 3 * impl_->obstacle_mocap);
   const double time = d->time;
   mj_resetData(m, d);
   d->time = time;
-  placeObstacle(obstacle);
+  impl_->setObstacle(obstacle);
   impl_->placeBase(X);
   for (std::size_t i = 0; i < 6; ++i)
     d->qpos[m->jnt_qposadr[impl_->arm_joint[i]]] = q[static_cast<Eigen::Index>(i)];
@@ -231,8 +234,24 @@ void Physics::moveBox(const std::string& name, const Eigen::Isometry3d& X) {
   }
 }
 
-void Physics::placeObstacle(const Eigen::Vector3d& p) {
-  for (int i = 0; i < 3; ++i) impl_->d->mocap_pos[3 * impl_->obstacle_mocap + i] = p[i];
+void Physics::Impl::setObstacle(const Eigen::Vector3d& p) {
+  std::copy(p.data(), p.data() + 3, d->mocap_pos + 3 * obstacle_mocap);
+}
+
+bool Physics::placeObstacle(const Eigen::Vector3d& p) {
+  const mjData* d = impl_->d;
+  impl_->setObstacle(p);
+  mj_step1(impl_->m, impl_->d);
+  const bool touches = std::any_of(d->contact, d->contact + d->ncon, [this](const mjContact& c) {
+    return impl_->isObstacle(c.geom1) || impl_->isObstacle(c.geom2);
+  });
+  if (touches) removeObstacle();
+  return !touches;
+}
+
+void Physics::removeObstacle() {
+  impl_->setObstacle(kBelowTheFloor);
+  mj_step1(impl_->m, impl_->d);
 }
 
 void Physics::setSteerTorque(std::size_t wheel, double torque) {

@@ -42,7 +42,10 @@ class Physics {
   void displace(const Eigen::Isometry3d& X_map_base);
   /// The arena's first box of that name.
   void moveBox(const std::string& name, const Eigen::Isometry3d& X_map_box);
-  void placeObstacle(const Eigen::Vector3d& p_map);
+  /// Puts the centre of the scripted arm obstacle there.
+  /// @return false: it would touch the robot, and stays away.
+  bool placeObstacle(const Eigen::Vector3d& p_map);
+  void removeObstacle();
 
   void setSteerTorque(std::size_t wheel, double torque_nm);
   void setDriveTorque(std::size_t wheel, double torque_nm);

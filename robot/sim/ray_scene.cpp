@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "robot/sim/mjcf.h"
+
 namespace kiln::sim {
 namespace {
 
 constexpr std::size_t kMaxDrops = 96;
 constexpr double kDropRadius =
     0.009;  // drawn larger than the true 4 mm, else a drop is no pixel wide
-constexpr double kObstacleSize = 0.2;  // as in the physics model
 constexpr int kFlameStrips = 5;
 constexpr double kPersonHeight = 1.75, kPersonRadius = 0.22;
 constexpr double kClothes_c = 30.0;
@@ -44,7 +45,7 @@ RayScene::RayScene(const WorldConfig& config, const TrueArena& arena, const Robo
                           fire_.ambient_c));
   }
   addDisturbances(config);
-  obstacle_ = note(rays_.addBox(Eigen::Vector3d::Constant(kObstacleSize),
+  obstacle_ = note(rays_.addBox(Eigen::Vector3d::Constant(kObstacleSize_m),
                                 Eigen::Isometry3d::Identity(), number(Material::Obstacle), 0),
                    fire_.ambient_c);
   update(SceneState{});

@@ -24,7 +24,7 @@ struct SceneState {
   std::array<double, 4> steer_rad{}, drive_rad{};
   double plate_c = 25.0;                    ///< of the burning place
   std::vector<Eigen::Vector3d> drops;       ///< water in flight, map
-  std::optional<Eigen::Vector3d> obstacle;  ///< scripted box before the arm
+  std::optional<Eigen::Vector3d> obstacle;  ///< scripted box in the arm's way
   std::optional<MovedBox> moved;
   std::vector<Eigen::Vector3d> people;      ///< their feet, map
   std::optional<double> board_azimuth_rad;  ///< boards about that azimuth of the LiDAR

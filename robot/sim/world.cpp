@@ -7,6 +7,7 @@
 #include "common/core/log.h"
 #include "robot/scene/arena_map.h"
 #include "robot/sim/arm_device.h"
+#include "robot/sim/arm_obstacle.h"
 #include "robot/sim/base_device.h"
 #include "robot/sim/collision_monitor.h"
 #include "robot/sim/disturbances.h"
@@ -20,8 +21,7 @@
 namespace kiln::sim {
 namespace {
 
-constexpr double kObstacleAhead_m = 0.30;  // of the flange, along its axis
-constexpr double kUprightCosine = 0.87;    // 30 degrees: beyond that no wheel saves it
+constexpr double kUprightCosine = 0.87;  // 30 degrees: beyond that no wheel saves it
 constexpr double kSunk_m = 0.3;
 
 template <class T>
@@ -50,7 +50,8 @@ struct World::Impl {
         jet(c.water, arena.fire_places, s),
         collisions(c.collision_force_n),
         disturbances(arena, r, s),
-        sensors(c, arena, r, s, options.render_colour) {}
+        sensors(c, arena, r, s, options.render_colour),
+        obstacle(robot) {}
 
   void carryToStart();
   void stepOnce();
@@ -81,7 +82,7 @@ struct World::Impl {
   CollisionMonitor collisions;
   Disturbances disturbances;
   SensorSuite sensors;
-  std::optional<Eigen::Vector3d> obstacle;
+  ArmObstacle obstacle;
   bool protective_stop_done = false;
   std::optional<Stamp> fell;
   std::uint32_t resets = 0;
@@ -108,7 +109,7 @@ SceneState World::Impl::scene() const {
     state.drive_rad[i] = physics->drive(i).position;
   }
   state.plate_c = plate();
-  state.obstacle = obstacle;
+  state.obstacle = obstacle.center();
   disturbances.show(state);
   return state;
 }
@@ -117,12 +118,7 @@ void World::Impl::applyFaults() {
   const bool all = faults.active("pump_blocked", now);
   pumps.setBlocked(0, all || faults.active("pump_blocked_left", now));
   pumps.setBlocked(1, all || faults.active("pump_blocked_right", now));
-  const bool blocked_way = faults.active("arm_obstacle", now);
-  if (blocked_way != obstacle.has_value()) {
-    obstacle.reset();
-    if (blocked_way) obstacle = X_map_flange() * Eigen::Vector3d(0, 0, kObstacleAhead_m);
-    physics->placeObstacle(obstacle.value_or(Eigen::Vector3d(0, 0, -5)));
-  }
+  obstacle.step(faults.active("arm_obstacle", now), *physics);
   const bool stop = faults.active("protective_stop", now);
   if (stop && !protective_stop_done) arm.protectiveStop();
   protective_stop_done = stop;

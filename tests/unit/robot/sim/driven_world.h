@@ -27,9 +27,7 @@ struct DrivenWorld {
         controller(control, world->robot(), wheels, stop) {
     run(0.5);  // comes to rest on its wheels
   }
-  static WorldConfig fullWorld() {
-    return *WorldConfig::load(*resourcePath("worlds/fire_full.yaml"));
-  }
+  static WorldConfig fullWorld() { return *WorldConfig::load(*resourcePath("worlds/fire.yaml")); }
   /// As surveyed: nothing is drawn, the robot stands exactly at the origin, its wheels are all
   /// alike.
   static WorldConfig nominalWorld() {
