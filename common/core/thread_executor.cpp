@@ -5,6 +5,7 @@
 #include <pthread.h>
 
 #include "common/core/check.h"
+#include "common/core/scheduling.h"
 
 namespace kiln {
 namespace {
@@ -31,12 +32,13 @@ bool ThreadExecutor::post(Job job) {
   return true;
 }
 
-void ThreadExecutor::every(Duration period, std::string name, int /*priority*/,
+void ThreadExecutor::every(Duration period, std::string name, int priority,
                            std::function<void(Stamp)> tick) {
   KILN_CHECK(threads_.empty(), "every() after start()", name);
   TickStatistics statistics;
   statistics.name = std::move(name);
-  periodics_.push_back(std::make_unique<Periodic>(Periodic{period, std::move(tick), statistics}));
+  periodics_.push_back(
+      std::make_unique<Periodic>(Periodic{period, priority, std::move(tick), statistics}));
 }
 
 void ThreadExecutor::start() {
@@ -60,6 +62,7 @@ void ThreadExecutor::stop() {
 
 void ThreadExecutor::runPeriodic(std::stop_token stop, Periodic& periodic) {
   nameThisThread(periodic.statistics.name);
+  if (periodic.priority <= kPriorityControl) runBeforeOthers();
   std::unique_lock lock(mutex_);
   Stamp due = clock_.now() + periodic.period;
   while (!stop.stop_requested()) {

@@ -12,8 +12,10 @@
 
 namespace kiln {
 
-/// Real time: one named thread a tick, a small pool for jobs. every() before start(); post() at any
-/// time and from any thread. stop() (or the destructor) joins all threads; nothing is detached.
+/// Real time: one named thread a tick, a small pool for jobs. Ticks up to kPriorityControl run
+/// before the machine's ordinary threads where that is allowed (scheduling.h). every() before
+/// start(); post() at any time and from any thread. stop() (or the destructor) joins all threads;
+/// nothing is detached.
 class ThreadExecutor final : public Executor {
  public:
   ThreadExecutor(const Clock& clock, int pool_threads);
@@ -32,6 +34,7 @@ class ThreadExecutor final : public Executor {
  private:
   struct Periodic {
     Duration period;
+    int priority;
     std::function<void(Stamp)> tick;
     TickStatistics statistics;
   };

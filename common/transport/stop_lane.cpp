@@ -5,6 +5,7 @@
 #include <thread>
 #include <utility>
 
+#include "common/core/scheduling.h"
 #include "common/transport/monotonic.h"
 #include "common/transport/wake_event.h"
 #include "common/transport/zmq_socket.h"
@@ -19,6 +20,7 @@ struct StopServer::Impl {
   explicit Impl(Handler handler)
       : on_request(std::move(handler)), socket(context, SocketKind::Router, {}) {}
   void run(std::stop_token stop) {
+    runBeforeOthers();
     while (!stop.stop_requested()) {
       waitReadable({&socket}, wake.fd(), kIdle_ms);
       wake.clear();

@@ -5,6 +5,7 @@
 
 #include "common/config/resources.h"
 #include "common/core/log.h"
+#include "common/core/scheduling.h"
 #include "robot/sim/fault_catalog.h"
 #include "robot/sim/world_server.h"
 
@@ -77,6 +78,8 @@ int main(int argc, char** argv) {
   ::sigaction(SIGINT, &action, nullptr);
   ::sigaction(SIGTERM, &action, nullptr);
 
+  // Before the world starts its threads: the LiDAR's inherits this.
+  if (!options.server.lockstep) kiln::runBeforeOthers();
   const auto config = loadWorld(options);
   if (!config) return fail(config.error());
   auto world =

@@ -1,12 +1,8 @@
 #include "robot/sim/picture_thread.h"
 
-#include <sys/resource.h>
-#include <unistd.h>
+#include "common/core/scheduling.h"
 
 namespace kiln::sim {
-namespace {
-constexpr int kNice = 10;
-}
 
 PictureThread::PictureThread(const WorldConfig& config, const TrueArena& arena,
                              const RobotGeometry& robot)
@@ -21,7 +17,7 @@ void PictureThread::render(SceneState state) {
 }
 
 void PictureThread::work(std::stop_token stop) {
-  ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kNice);  // Linux: of this thread alone
+  runAfterOthers();
   while (!stop.stop_requested()) {
     std::unique_lock lock(mutex_);
     if (!wake_.wait(lock, stop, [this] { return next_.has_value(); })) return;

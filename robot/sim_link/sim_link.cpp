@@ -10,6 +10,7 @@
 
 #include "common/core/check.h"
 #include "common/core/log.h"
+#include "common/core/scheduling.h"
 #include "robot/sim_link/clock_map.h"
 #include "robot/sim_link/device_codec.h"
 #include "robot/sim_link/sim_devices.h"
@@ -195,6 +196,7 @@ void SimLink::Impl::watchSilence() {
 
 void SimLink::Impl::run(std::stop_token stop) {
   ::pthread_setname_np(::pthread_self(), "io.sim");
+  runBeforeOthers();
   while (!stop.stop_requested()) {
     v1::device::ToWorld out;
     if (outbox.take(*out.mutable_advance())) (void)socket->send(out);

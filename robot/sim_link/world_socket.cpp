@@ -2,8 +2,11 @@
 
 #include <cmath>
 
+#include <sched.h>
 #include <unistd.h>
 #include <zmq.hpp>
+
+#include "common/core/scheduling.h"
 
 namespace kiln {
 namespace {
@@ -20,15 +23,27 @@ Error refused(const v1::device::HelloReply& reply) {
   return {code, "kiln-sim refuses: " + reply.reason()};
 }
 
+/// ZeroMQ's own thread must not be what makes a report late.
+zmq::context_t makeContext(bool realtime) {
+  zmq::context_t context{1};
+  if (const auto priority = realtime ? realtimePriority() : std::nullopt) {
+    context.set(zmq::ctxopt::thread_sched_policy, SCHED_RR);
+    context.set(zmq::ctxopt::thread_priority, *priority);
+  }
+  return context;
+}
+
 }  // namespace
 
 struct WorldSocket::Sockets {
-  zmq::context_t context{1};
+  explicit Sockets(bool realtime) : context(makeContext(realtime)) {}
+  zmq::context_t context;
   zmq::socket_t data{context, zmq::socket_type::dealer};
   zmq::socket_t monitor{context, zmq::socket_type::pair};
 };
 
-WorldSocket::WorldSocket(int wake_fd) : sockets_(std::make_unique<Sockets>()), wake_fd_(wake_fd) {}
+WorldSocket::WorldSocket(int wake_fd)
+    : sockets_(std::make_unique<Sockets>(wake_fd >= 0)), wake_fd_(wake_fd) {}
 
 WorldSocket::~WorldSocket() = default;
 
