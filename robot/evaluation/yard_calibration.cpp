@@ -95,11 +95,14 @@ Result<YardCalibration> calibrateInYard(int seed) {
       scratch.file("sim.log"));
   if (!world) return tl::make_unexpected(world.error());
   auto done = calibrateBy(endpoint);
-  if (!done) return makeError(done.error().code, "seed {}: {}", seed, done.error().message);
   world->signal(SIGTERM);
   (void)world->wait(std::chrono::seconds(5));
   std::string truth = contentOf(scratch.file("truth.json"));
   const json parsed = json::parse(truth, nullptr, false);
+  if (!done) {
+    return makeError(done.error().code, "seed {}: {}; collisions: {}", seed, done.error().message,
+                     parsed.is_object() ? parsed.value("collisions", json::array()).dump() : "?");
+  }
   if (parsed.is_discarded() || !parsed.contains("perturbations")) {
     return makeError(ErrorCode::NotFound, "kiln-sim left no truth; its last words:\n{}",
                      tailOf(scratch.file("sim.log"), 6));
