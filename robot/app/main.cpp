@@ -34,6 +34,7 @@ struct Arguments {
   bool record = false;
   double heat_threshold_c = 0.0;
   bool exit_when_done = false;
+  double until_s = 0.0;
   bool print_config = false;
   bool print_reference = false;
   int log_level = 2;
@@ -67,6 +68,9 @@ void addOptions(CLI::App& app, Arguments& a) {
                "step together with kiln-sim --lockstep, as fast as possible");
   app.add_flag("--exit-when-done", a.exit_when_done,
                "end when the mission has ended; exit status 0 on success");
+  app.add_option("--until-s", a.until_s,
+                 "end after so many seconds of robot time, mission over or not (default: never)")
+      ->check(CLI::Range(0.1, 1e6));
   app.add_option("--report", a.report,
                  "write the mission report (JSON) at the end; wall times go to FILE.timing");
   app.add_option("--record", a.record_dir,
@@ -217,7 +221,10 @@ int run(Arguments a) {
                              runtime.executor(), link->get(), stop);
   if (!robot) return fail(robot.error());
 
-  const auto done = [&] { return a.exit_when_done && (*robot)->missionEnded(); };
+  const Stamp until = runtime.clock().now() + fromSeconds(a.until_s > 0.0 ? a.until_s : 1e9);
+  const auto done = [&] {
+    return (a.exit_when_done && (*robot)->missionEnded()) || runtime.clock().now() >= until;
+  };
   if (runtime.run) {
     runReplay(*runtime.run, *runtime.manual, a.replay_speed, done);
   } else if (runtime.manual) {
@@ -232,7 +239,10 @@ int run(Arguments a) {
     // The stations shall see how it ended before the link goes.
     constexpr Duration kFarewell = std::chrono::seconds(3);
     const Stamp farewell = runtime.clock().now() + kFarewell;
-    runRealTime([&] { return !a.exit_when_done || runtime.clock().now() >= farewell; });
+    runRealTime([&] {
+      const Stamp now = runtime.clock().now();
+      return !a.exit_when_done || now >= farewell || now >= until;
+    });
     runtime.threads->stop();
   }
   if (auto written = writeReports(a, **robot, runtime.clock().now()); !written)

@@ -15,11 +15,13 @@ namespace kiln {
 namespace {
 
 constexpr double kDeg = M_PI / 180.0;
-constexpr double kMaxTick = 0.05;      // s; a longer gap is a slipped tick, not a longer step
-constexpr double kMovingSpeed = 0.02;  // m/s; slower, the target decides where the wheels point
-constexpr double kRestSpeed = 0.01;    // m/s, measured
-constexpr double kSteadyAccel = 0.05;  // m/s^2; faster changes are the drives' own affair ...
-constexpr double kSteadyTime = 0.3;    // s; ... and so is settling after them
+constexpr double kMaxTick = 0.05;       // s; a longer gap is a slipped tick, not a longer step
+constexpr double kMovingSpeed = 0.02;   // m/s; slower, the target decides where the wheels point
+constexpr double kRestSpeed = 0.01;     // m/s, measured
+constexpr double kSteadyAccel = 0.05;   // m/s^2; faster changes are the drives' own affair ...
+constexpr double kSteadyTime = 0.3;     // s; ... and so is settling after them
+constexpr double kDisobeySpeed = 0.10;  // m/s, measured after the ramp to zero ...
+constexpr double kDisobeyTime = 0.15;   // s; ... for so long: the drives do not obey
 
 bool isFinite(const Twist2& t) {
   return std::isfinite(t.vx_mps) && std::isfinite(t.vy_mps) && std::isfinite(t.wz_radps);
@@ -136,6 +138,15 @@ struct BaseController::Impl {
     if (size > config.max_trim_mps) trim *= config.max_trim_mps / size;
   }
 
+  /// After STOP a base that moves on though zero is commanded gets no setpoints any more: its own
+  /// watchdog then brakes it, which a drive that runs away cannot undo.
+  void updateSilence(double dt) {
+    const bool moves_on = stop.latched() && limiter.velocity().isZero(1e-6) &&
+                          weighted(measured.twist).norm() > kDisobeySpeed;
+    disobeyed_s = moves_on ? disobeyed_s + dt : 0.0;
+    silent = stop.latched() && (silent || disobeyed_s > kDisobeyTime);
+  }
+
   /// Each wheel drives what its present direction can give of the rigid motion: the cosine of its
   /// error, and reversed when it points the other way.
   WheelCommands drive() const {
@@ -192,7 +203,8 @@ struct BaseController::Impl {
   Eigen::Vector2d trim = Eigen::Vector2d::Zero();  ///< base frame
   double steady_s = 0.0;
   SwerveTwist measured;
-  bool aligning = false, seen_state = false;
+  double disobeyed_s = 0.0;
+  bool aligning = false, seen_state = false, silent = false;
   std::optional<Stamp> last_tick;
   std::atomic<bool> reset_odometry{false};
   mutable std::mutex mutex;
@@ -249,8 +261,11 @@ void BaseController::tick(Stamp now) {
                 : MotionLimits{m.config.max_accel_mps2, m.config.max_jerk_mps3};
     m.limiter.step(m.aligning ? Eigen::Vector3d::Zero() : wish.target, limits, dt);
     m.updateTrim(fresh, dt);
+    m.updateSilence(dt);
   }
-  if (m.seen_state) {
+  if (m.silent) {
+    wish.blocked += "; the base moved on, so its setpoints are withheld";
+  } else if (m.seen_state) {
     const auto written = m.base.write(m.drive());
     if (!written && wish.blocked.empty()) wish.blocked = written.error().message;
   }

@@ -42,8 +42,9 @@ struct BaseTracking {
 /// wheels to point the right way before driving), velocity, acceleration and jerk limits, odometry
 /// from the measured wheels. Integral action on the measured speed carries the robot up a slope at
 /// the commanded speed and keeps it from rolling back at rest, also with drives whose own loop
-/// gives way under load; there is no power limit. setpoint()/tracking() thread-safe; tick()
-/// confined to the control thread.
+/// gives way under load; there is no power limit. A base that moves on after STOP gets no setpoints
+/// until STOP is cleared: the device's own watchdog brakes it. setpoint()/tracking() thread-safe;
+/// tick() confined to the control thread.
 class BaseController {
  public:
   struct Config {

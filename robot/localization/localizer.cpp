@@ -15,10 +15,6 @@ bool agree(const Pose2& a, const Pose2& b, double within_m, double within_deg) {
          std::abs(wrapAngle(a.yaw_rad - b.yaw_rad)) <= within_deg * kDeg;
 }
 
-Pose2 turned(const Pose2& X, double by_rad) {
-  return {X.x_m, X.y_m, wrapAngle(X.yaw_rad + by_rad)};
-}
-
 }  // namespace
 
 void Localizer::Config::visit(ConfigArchive& a) {
@@ -132,8 +128,8 @@ void Localizer::confirm(const AlignmentPrior& prior, const ScanMatch& match) {
     submap_ = submapAt(found, prior.submap);
     if (tracker_.addFix(prior, match)) {
       logger("localization")
-          ->warn("position found again: x {:.2f} m, y {:.2f} m, {:.0f} deg", found.x_m, found.y_m,
-                 found.yaw_rad / kDeg);
+          ->warn("position found again: x {:.2f} m, y {:.2f} m, {:.0f} deg; {:.0f} % explained",
+                 found.x_m, found.y_m, found.yaw_rad / kDeg, 100.0 * match.inlier_fraction);
     }
     return;
   }
@@ -153,7 +149,15 @@ bool Localizer::addResult(const AlignmentPrior& prior, const Result<ScanMatch>& 
     confirm(prior, *match);
     return tracker_.pose(prior.stamp).fixes != before;
   }
-  return tracker_.addFix(prior, *match);
+  const bool lost = prior.search && tracker_.pose(prior.stamp).health == PoseHealth::Lost;
+  if (!tracker_.addFix(prior, *match)) return false;
+  if (lost) {
+    const Pose2 found = projectToGround(match->X_map_base);
+    logger("localization")
+        ->warn("position found: x {:.2f} m, y {:.2f} m, {:.0f} deg; {:.0f} % explained", found.x_m,
+               found.y_m, found.yaw_rad / kDeg, 100.0 * match->inlier_fraction);
+  }
+  return true;
 }
 
 }  // namespace kiln

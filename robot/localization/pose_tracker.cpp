@@ -59,6 +59,10 @@ void PoseTracker::Config::visit(ConfigArchive& a) {
   a.field("gate_sigmas", gate_sigmas, "", 1, 100, "fixes further off are refused");
   a.field("search_after_rejections", search_after_rejections, "", 1, 1000, "scans");
   a.field("lost_after_rejections", lost_after_rejections, "", 1, 10000, "scans");
+  a.field("carried_m", carried_m, "m", 0.01, 10, "a search that ends so far off: carried, lost");
+  a.field("carried_deg", carried_deg, "deg", 0.1, 180, "the same for the heading");
+  a.field("carried_inlier_fraction", carried_inlier_fraction, "", 0, 1,
+          "share of a scan that the map must explain there");
   a.field("correction_rate_mps", correction_rate_mps, "m/s", 0.01, 10, "slew of the correction");
   a.field("correction_rate_deg_s", correction_rate_deg_s, "deg/s", 0.1, 360,
           "slew of the correction");
@@ -86,6 +90,7 @@ void PoseTracker::reset(const Eigen::Isometry3d& X_map_base_3d, Stamp now) {
   last_fix_ = now;
   distance_since_fix_m_ = 0.0;
   rejected_in_a_row_ = 0;
+  carried_ = false;
   ++epoch_;
 }
 
@@ -207,6 +212,21 @@ bool PoseTracker::addFix(const AlignmentPrior& prior, const ScanMatch& match) {
     return false;
   }
   if (!innovation.allFinite()) return false;
+  if (!plausible && has_fix_ && match.inlier_fraction < config_.carried_inlier_fraction) {
+    addFailure(prior, fmt::format("where the scan fits best the map explains {:.0f} % of it",
+                                  100.0 * match.inlier_fraction));
+    return false;
+  }
+  const bool lost = !has_fix_ || carried_ || rejected_in_a_row_ >= config_.lost_after_rejections;
+  const double off_m = innovation.head<2>().norm(), off_rad = std::abs(innovation.z());
+  if (!plausible && !lost && (off_m > config_.carried_m || off_rad > config_.carried_deg * kDeg)) {
+    carried_ = true;
+    last_failure_ =
+        fmt::format("the scan says {:.2f} m and {:.1f} deg elsewhere", off_m, off_rad / kDeg);
+    ++rejected_;
+    ++rejected_in_a_row_;
+    return false;
+  }
   if (plausible) {
     const Eigen::Matrix3d K = covariance_ * S_inverse;
     const Eigen::Vector3d delta = K * innovation;
@@ -220,8 +240,7 @@ bool PoseTracker::addFix(const AlignmentPrior& prior, const ScanMatch& match) {
     covariance_ = match_covariance;
   }
   // Nothing moves by the old belief: there was none, or the robot stands because it is lost.
-  if (!has_fix_ || rejected_in_a_row_ >= config_.lost_after_rejections)
-    X_map_odom_control_ = X_map_odom_;
+  if (lost) X_map_odom_control_ = X_map_odom_;
   ground_point_ = match.X_map_base.translation();
   ground_normal_ = match.X_map_base.linear().col(2);
   inlier_fraction_ = match.inlier_fraction;
@@ -231,6 +250,7 @@ bool PoseTracker::addFix(const AlignmentPrior& prior, const ScanMatch& match) {
   last_fix_ = prior.stamp;
   distance_since_fix_m_ = 0.0;
   rejected_in_a_row_ = 0;
+  carried_ = false;
   ++fixes_;
   return true;
 }
@@ -271,6 +291,8 @@ PoseHealth PoseTracker::health(const TrackedPose& pose, std::string& reason) con
   };
   if (!has_fix_) {
     because("no scan matched yet");
+  } else if (carried_) {
+    because("the robot was carried, or its wheels slipped");
   } else if (rejected_in_a_row_ >= config_.lost_after_rejections) {
     because(fmt::format("{} scans in a row did not match", rejected_in_a_row_));
   } else if (pose.age_s > config_.lost_age_s) {

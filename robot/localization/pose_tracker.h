@@ -63,8 +63,9 @@ struct AlignmentPrior {
 /// fix takes it away in the directions it observed. Height and tilt come from the fixes alone
 /// (there is no IMU); between two of them the base is taken to follow the plane it stood on. The
 /// correction for control is slewed, so that a fix never makes the robot jump; only the first fix
-/// after a reset, and one that replaces a failed belief, is taken at once. Typical use, on the
-/// mission thread:
+/// after a reset, and one that replaces a failed belief, is taken at once. A search that ends far
+/// from the belief makes the pose Lost first, so that the robot stands before it is somewhere else.
+/// Typical use, on the mission thread:
 ///   tracker.reset(X_map_base, now);
 ///   each tick: tracker.addOdometry(now, base.tracking().X_odom_base);  use tracker.pose(now)
 ///   each scan: if (auto prior = tracker.priorAt(scan.stamp)) post a job that calls a ScanLocator,
@@ -81,11 +82,14 @@ class PoseTracker {
     double yaw_drift_per_turn = 0.03;      ///< 1-sigma, rad per rad turned
     double walk_sigma_m =
         0.003;  ///< 1-sigma after one second at rest (pushes, floor, model): keeps
-    double walk_sigma_deg = 0.05;       ///< the filter listening
-    double gate_sigmas = 4.0;           ///< a fix further off than this is rejected
-    int search_after_rejections = 5;    ///< then the next scans search widely
-    int lost_after_rejections = 20;     ///< two seconds without one believable scan
-    double correction_rate_mps = 0.25;  ///< slew of the correction used by control
+    double walk_sigma_deg = 0.05;          ///< the filter listening
+    double gate_sigmas = 4.0;              ///< a fix further off than this is rejected
+    int search_after_rejections = 5;       ///< then the next scans search widely
+    int lost_after_rejections = 12;        ///< a good second without one believable scan
+    double carried_m = 0.25;               ///< a search that ends so far from the belief means that
+    double carried_deg = 5.0;              ///< the robot was carried: lost, before it counts
+    double carried_inlier_fraction = 0.6;  ///< the map must explain so much of a scan there
+    double correction_rate_mps = 0.25;     ///< slew of the correction used by control
     double correction_rate_deg_s = 8.0;
     double good_sigma_m = 0.05;
     double good_age_s = 1.5;
@@ -142,6 +146,7 @@ class PoseTracker {
   int observable_directions_ = 0;
   double distance_since_fix_m_ = 0.0;
   int rejected_in_a_row_ = 0;
+  bool carried_ = false;  // a search found the robot far from the belief
   std::uint64_t fixes_ = 0, rejected_ = 0, epoch_ = 0;
 };
 

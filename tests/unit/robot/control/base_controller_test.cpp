@@ -146,6 +146,31 @@ TEST_F(BaseControllerTest, StopsOnTheLatchAndStaysStoppedAfterItIsCleared) {
   EXPECT_GT(controller.tracking().commanded.vx_mps, 0.1);
 }
 
+TEST_F(BaseControllerTest, LeavesABaseThatMovesOnAfterStopToItsOwnWatchdog) {
+  base.setSag(-0.4);  // drives off whatever is commanded
+  drive({0, 0, 0}, 1.0);
+  ASSERT_GT(std::abs(controller.tracking().measured.vx_mps), 0.2);
+  stop.set("motion watch", clock.now());
+  idle(0.5);
+  const std::size_t sent = base.sent().size();
+  idle(1.0);
+  EXPECT_EQ(base.sent().size(), sent) << "not one setpoint more";
+  EXPECT_NE(controller.tracking().blocked.find("withheld"), std::string::npos);
+  stop.clear();
+  base.setSag(0.0);
+  idle(0.1);
+  EXPECT_GT(base.sent().size(), sent);
+}
+
+TEST_F(BaseControllerTest, GoesOnSayingZeroToABaseThatObeysStop) {
+  drive({1.0, 0, 0}, 3.0);
+  stop.set("operator", clock.now());
+  idle(2.0);
+  const std::size_t sent = base.sent().size();
+  idle(0.5);
+  EXPECT_GT(base.sent().size(), sent + 50);
+}
+
 TEST_F(BaseControllerTest, StopsWhenTheWheelStateIsStale) {
   drive({1.0, 0, 0}, 3.0);
   base.freezeState(true);

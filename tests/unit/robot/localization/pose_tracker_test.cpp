@@ -26,6 +26,7 @@ ScanMatch fixAt(const AlignmentPrior& prior, const Pose2& X_map_base) {
   fix.X_map_base = toIsometry(X_map_base);
   fix.covariance.diagonal() << 1e-4, 1e-4, 1e-4, 1e-5, 1e-5, 1e-5;
   fix.observable_directions = 6;
+  fix.inlier_fraction = 0.9;
   return fix;
 }
 
@@ -86,12 +87,35 @@ TEST(PoseTracker, RefusesAWildFixAndSearchesAfterFive) {
     EXPECT_NEAR(tracker.pose(at(0.1 * i)).X_map_base.x_m, 0.0, 1e-6);
   }
   EXPECT_EQ(tracker.pose(at(0.5)).rejected, 5U);
-  // Five in a row say the belief is wrong, not the scans: the next one searches, and what it finds
-  // is believed.
+  // Five in a row say the belief is wrong, not the scans: the next one searches. What it finds a
+  // metre away stops the robot first and is believed when it is found again.
   const auto prior = tracker.priorAt(at(0.5));
   ASSERT_TRUE(prior->search);
-  EXPECT_TRUE(tracker.addFix(*prior, fixAt(*prior, {1.0, 0.0, 0.0})));
+  EXPECT_FALSE(tracker.addFix(*prior, fixAt(*prior, {1.0, 0.0, 0.0})));
+  EXPECT_EQ(tracker.pose(at(0.5)).health, PoseHealth::Lost);
+  EXPECT_NE(tracker.pose(at(0.5)).reason.find("carried"), std::string::npos);
+  EXPECT_NEAR(tracker.pose(at(0.5)).X_map_base.x_m, 0.0, 1e-6);
+  const auto again = tracker.priorAt(at(0.5));
+  ASSERT_TRUE(again->search);
+  EXPECT_TRUE(tracker.addFix(*again, fixAt(*again, {1.0, 0.0, 0.0})));
+  EXPECT_EQ(tracker.pose(at(0.5)).health, PoseHealth::Good);
+  EXPECT_NEAR(tracker.pose(at(0.5)).X_map_base.x_m, 1.0, 1e-6) << "at once: it stands";
   EXPECT_FALSE(tracker.priorAt(at(0.5))->search);
+}
+
+TEST(PoseTracker, AFewCentimetresThatASearchFindsStopNobody) {
+  PoseTracker tracker({});
+  tracker.reset(Eigen::Isometry3d::Identity(), at(0));
+  tracker.addOdometry(at(0), {});
+  const auto first = tracker.priorAt(at(0));
+  ASSERT_TRUE(tracker.addFix(*first, fixAt(*first, {})));
+  for (int i = 1; i <= 6; ++i) {
+    tracker.addOdometry(at(0.1 * i), {});
+    const auto prior = tracker.priorAt(at(0.1 * i));
+    EXPECT_EQ(tracker.addFix(*prior, fixAt(*prior, {0.2, 0.0, 0.0})), i == 6);
+    EXPECT_EQ(tracker.pose(at(0.1 * i)).health, PoseHealth::Good);
+  }
+  EXPECT_LT(tracker.pose(at(0.6)).X_map_base.x_m, 0.03) << "not at once: it may be driving";
 }
 
 TEST(PoseTracker, IgnoresAFixFromBeforeAReset) {
@@ -135,7 +159,7 @@ TEST(PoseTracker, FollowsTheSlopeItStandsOnBetweenFixes) {
   EXPECT_NEAR(across.linear()(2, 1), -std::sin(4 * kDeg), 2e-3);
 }
 
-TEST(PoseTracker, IsLostAfterTwentyScansThatDoNotFitAndSaysWhy) {
+TEST(PoseTracker, IsLostAfterScansThatDoNotFitAndSaysWhy) {
   PoseTracker tracker({});
   tracker.reset(Eigen::Isometry3d::Identity(), at(0));
   tracker.addOdometry(at(0), {});
