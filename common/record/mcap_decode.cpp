@@ -1,5 +1,7 @@
 #include "common/record/mcap_decode.h"
 
+#include "common/record/mcap_fields.h"
+
 namespace kiln::mcap {
 namespace {
 
@@ -9,15 +11,37 @@ std::optional<T> whole(const ByteReader& in, T value) {
   return value;
 }
 
-std::map<std::uint16_t, std::uint64_t> counts(ByteReader& in) {
-  std::map<std::uint16_t, std::uint64_t> out;
+void get(ByteReader& in, std::uint16_t& out) { out = in.u16(); }
+void get(ByteReader& in, std::uint32_t& out) { out = in.u32(); }
+void get(ByteReader& in, std::uint64_t& out) { out = in.u64(); }
+void get(ByteReader& in, std::string& out) { out = in.text(); }
+
+/// Maps and lists.
+template <class Pairs>
+requires requires { typename Pairs::value_type::second_type; }
+void get(ByteReader& in, Pairs& out) {
   ByteReader body(in.text());
-  while (body.ok() && body.remaining() > 0) {
-    const std::uint16_t key = body.u16();
-    const std::uint64_t value = body.u64();
-    if (body.ok()) out[key] = value;
+  while (body.remaining() > 0) {
+    std::remove_const_t<typename Pairs::value_type::first_type> first{};
+    typename Pairs::value_type::second_type second{};
+    get(body, first);
+    get(body, second);
+    if (!body.ok()) return in.fail();
+    out.insert(out.end(), typename Pairs::value_type(std::move(first), std::move(second)));
   }
-  return out;
+}
+
+template <class Record>
+Record getFields(ByteReader& in) {
+  Record record;
+  std::apply([&](auto&... field) { (get(in, field), ...); }, fields(record));
+  return record;
+}
+
+template <class Record>
+std::optional<Record> decoded(std::string_view content) {
+  ByteReader in(content);
+  return whole(in, getFields<Record>(in));
 }
 
 }  // namespace
@@ -50,140 +74,44 @@ std::optional<Record> nextRecord(ByteReader& in) {
   return whole(in, record);
 }
 
-std::optional<Header> decodeHeader(std::string_view content) {
-  ByteReader in(content);
-  Header r;
-  r.profile = in.text();
-  r.library = in.text();
-  return whole(in, std::move(r));
+std::optional<Header> decodeHeader(std::string_view content) { return decoded<Header>(content); }
+std::optional<Footer> decodeFooter(std::string_view content) { return decoded<Footer>(content); }
+std::optional<Schema> decodeSchema(std::string_view content) { return decoded<Schema>(content); }
+std::optional<Channel> decodeChannel(std::string_view content) { return decoded<Channel>(content); }
+std::optional<MessageIndex> decodeMessageIndex(std::string_view content) {
+  return decoded<MessageIndex>(content);
 }
-
-std::optional<Footer> decodeFooter(std::string_view content) {
-  ByteReader in(content);
-  Footer r;
-  r.summary_start = in.u64();
-  r.summary_offset_start = in.u64();
-  r.summary_crc = in.u32();
-  return whole(in, r);
+std::optional<ChunkIndex> decodeChunkIndex(std::string_view content) {
+  return decoded<ChunkIndex>(content);
 }
-
-std::optional<Schema> decodeSchema(std::string_view content) {
-  ByteReader in(content);
-  Schema r;
-  r.id = in.u16();
-  r.name = in.text();
-  r.encoding = in.text();
-  r.data = in.text();
-  return whole(in, std::move(r));
+std::optional<AttachmentIndex> decodeAttachmentIndex(std::string_view content) {
+  return decoded<AttachmentIndex>(content);
 }
-
-std::optional<Channel> decodeChannel(std::string_view content) {
-  ByteReader in(content);
-  Channel r;
-  r.id = in.u16();
-  r.schema_id = in.u16();
-  r.topic = in.text();
-  r.message_encoding = in.text();
-  ByteReader metadata(in.text());
-  while (metadata.ok() && metadata.remaining() > 0) {
-    const std::string key(metadata.text());
-    r.metadata[key] = metadata.text();
-  }
-  if (!metadata.ok()) return std::nullopt;
-  return whole(in, std::move(r));
+std::optional<Statistics> decodeStatistics(std::string_view content) {
+  return decoded<Statistics>(content);
 }
 
 std::optional<Message> decodeMessage(std::string_view content) {
   ByteReader in(content);
-  Message r;
-  r.channel_id = in.u16();
-  r.sequence = in.u32();
-  r.log_time = in.u64();
-  r.publish_time = in.u64();
+  auto r = getFields<Message>(in);
   r.data = in.take(in.remaining());
   return whole(in, r);
 }
 
 std::optional<Chunk> decodeChunk(std::string_view content) {
   ByteReader in(content);
-  Chunk r;
-  r.start_time = in.u64();
-  r.end_time = in.u64();
-  r.uncompressed_size = in.u64();
-  r.uncompressed_crc = in.u32();
-  r.compression = in.text();
+  auto r = getFields<Chunk>(in);
   r.records = in.take(in.u64());
-  return whole(in, std::move(r));
-}
-
-std::optional<MessageIndex> decodeMessageIndex(std::string_view content) {
-  ByteReader in(content);
-  MessageIndex r;
-  r.channel_id = in.u16();
-  ByteReader entries(in.text());
-  while (entries.ok() && entries.remaining() > 0) {
-    const std::uint64_t log_time = entries.u64();
-    const std::uint64_t offset = entries.u64();
-    if (entries.ok()) r.entries.emplace_back(log_time, offset);
-  }
-  if (!entries.ok()) return std::nullopt;
-  return whole(in, std::move(r));
-}
-
-std::optional<ChunkIndex> decodeChunkIndex(std::string_view content) {
-  ByteReader in(content);
-  ChunkIndex r;
-  r.start_time = in.u64();
-  r.end_time = in.u64();
-  r.offset = in.u64();
-  r.length = in.u64();
-  r.message_index_offsets = counts(in);
-  r.message_index_length = in.u64();
-  r.compression = in.text();
-  r.compressed_size = in.u64();
-  r.uncompressed_size = in.u64();
   return whole(in, std::move(r));
 }
 
 std::optional<Attachment> decodeAttachment(std::string_view content) {
   ByteReader in(content);
-  Attachment r;
-  r.log_time = in.u64();
-  r.create_time = in.u64();
-  r.name = in.text();
-  r.media_type = in.text();
+  auto r = getFields<Attachment>(in);
   r.data = in.take(in.u64());
   const std::size_t covered = content.size() - in.remaining();
   const std::uint32_t crc = in.u32();
   if (in.ok() && crc != 0 && crc != crc32(content.substr(0, covered))) return std::nullopt;
-  return whole(in, std::move(r));
-}
-
-std::optional<AttachmentIndex> decodeAttachmentIndex(std::string_view content) {
-  ByteReader in(content);
-  AttachmentIndex r;
-  r.offset = in.u64();
-  r.length = in.u64();
-  r.log_time = in.u64();
-  r.create_time = in.u64();
-  r.data_size = in.u64();
-  r.name = in.text();
-  r.media_type = in.text();
-  return whole(in, std::move(r));
-}
-
-std::optional<Statistics> decodeStatistics(std::string_view content) {
-  ByteReader in(content);
-  Statistics r;
-  r.message_count = in.u64();
-  r.schema_count = in.u16();
-  r.channel_count = in.u32();
-  r.attachment_count = in.u32();
-  r.metadata_count = in.u32();
-  r.chunk_count = in.u32();
-  r.start_time = in.u64();
-  r.end_time = in.u64();
-  r.channel_message_counts = counts(in);
   return whole(in, std::move(r));
 }
 

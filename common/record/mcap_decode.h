@@ -20,6 +20,7 @@ class ByteReader {
   [[nodiscard]] std::uint64_t u64() { return number(8); }
   [[nodiscard]] std::string_view take(std::uint64_t size);
   [[nodiscard]] std::string_view text() { return take(u32()); }
+  void fail() { ok_ = false; }  ///< what was read makes no sense
 
  private:
   [[nodiscard]] std::uint64_t number(std::size_t bytes);

@@ -114,7 +114,7 @@ void unpackCoordinates(std::string_view planes, std::size_t n, double resolution
 
 }  // namespace
 
-PackedCloud packCloud(const PointCloud& cloud, double resolution_m) {
+v1::Cloud packCloud(const PointCloud& cloud, double resolution_m) {
   KILN_CHECK(resolution_m >= kMinResolution_m && resolution_m <= kMaxResolution_m, resolution_m);
   KILN_CHECK(cloud.y.size() == cloud.size() && cloud.z.size() == cloud.size() &&
                  cloud.intensity.size() == cloud.size() && cloud.ring.size() == cloud.size() &&
@@ -124,40 +124,41 @@ PackedCloud packCloud(const PointCloud& cloud, double resolution_m) {
   const auto bytes = [n](const std::vector<std::uint8_t>& v) {
     return std::string_view(reinterpret_cast<const char*>(v.data()), n);
   };
-  PackedCloud packed;
-  packed.points = static_cast<std::uint32_t>(n);
-  packed.resolution_m = resolution_m;
-  packed.xyz = compress(packCoordinates(cloud, n, resolution_m));
-  packed.intensity = compress(bytes(cloud.intensity));
-  packed.ring = compress(bytes(cloud.ring));
-  packed.time = compress(packTimes(cloud, n));
+  v1::Cloud packed;
+  packed.set_points(static_cast<std::uint32_t>(n));
+  packed.set_resolution_m(resolution_m);
+  packed.set_xyz(compress(packCoordinates(cloud, n, resolution_m)));
+  packed.set_intensity(compress(bytes(cloud.intensity)));
+  packed.set_ring(compress(bytes(cloud.ring)));
+  packed.set_time(compress(packTimes(cloud, n)));
   return packed;
 }
 
-Result<PointCloud> unpackCloud(const PackedCloud& packed) {
-  if (packed.points > kMaxCloudPoints) {
+Result<PointCloud> unpackCloud(const v1::Cloud& packed) {
+  const double resolution_m = packed.resolution_m();
+  if (packed.points() > kMaxCloudPoints) {
     return makeError(ErrorCode::InvalidInput, "cloud: {} points are more than {}; dropped",
-                     packed.points, kMaxCloudPoints);
+                     packed.points(), kMaxCloudPoints);
   }
-  if (!(packed.resolution_m >= kMinResolution_m && packed.resolution_m <= kMaxResolution_m)) {
+  if (!(resolution_m >= kMinResolution_m && resolution_m <= kMaxResolution_m)) {
     return makeError(ErrorCode::InvalidInput,
-                     "cloud: resolution {} m is not within {} to {}; dropped", packed.resolution_m,
+                     "cloud: resolution {} m is not within {} to {}; dropped", resolution_m,
                      kMinResolution_m, kMaxResolution_m);
   }
-  const std::size_t n = packed.points;
-  const auto ring = decompress(packed.ring, n, "cloud ring");
+  const std::size_t n = packed.points();
+  const auto ring = decompress(packed.ring(), n, "cloud ring");
   if (!ring) return tl::make_unexpected(ring.error());
-  const auto intensity = decompress(packed.intensity, n, "cloud intensity");
+  const auto intensity = decompress(packed.intensity(), n, "cloud intensity");
   if (!intensity) return tl::make_unexpected(intensity.error());
-  const auto xyz = decompress(packed.xyz, 6 * n, "cloud xyz");
+  const auto xyz = decompress(packed.xyz(), 6 * n, "cloud xyz");
   if (!xyz) return tl::make_unexpected(xyz.error());
-  const auto time = decompress(packed.time, 2 * n, "cloud time");
+  const auto time = decompress(packed.time(), 2 * n, "cloud time");
   if (!time) return tl::make_unexpected(time.error());
 
   PointCloud cloud;
   cloud.ring.assign(ring->begin(), ring->end());
   cloud.intensity.assign(intensity->begin(), intensity->end());
-  unpackCoordinates(*xyz, n, packed.resolution_m, cloud);
+  unpackCoordinates(*xyz, n, resolution_m, cloud);
   cloud.time_offset_s.resize(n);
   std::uint16_t units = 0;
   for (std::size_t i = 0; i < n; ++i) {

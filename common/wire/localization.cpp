@@ -107,19 +107,12 @@ Result<LocalizationStatus> decodeLocalization(std::string_view bytes) {
 }
 
 std::string encode(const MapLayer& layer) {
-  PackedCloud packed = packCloud(asCloud(layer), kLayerResolution_m);
   v1::MapLayer out;
   out.set_stamp_ns(toNanoseconds(layer.stamp));
   out.set_name(validUtf8(layer.name));
   out.set_version(layer.version);
   for (const std::string& name : layer.submaps) out.add_submaps(validUtf8(name));
-  v1::Cloud& points = *out.mutable_points();
-  points.set_points(packed.points);
-  points.set_resolution_m(packed.resolution_m);
-  points.set_xyz(std::move(packed.xyz));
-  points.set_intensity(std::move(packed.intensity));
-  points.set_ring(std::move(packed.ring));
-  points.set_time(std::move(packed.time));
+  *out.mutable_points() = packCloud(asCloud(layer), kLayerResolution_m);
   return serialise(out);
 }
 
@@ -131,8 +124,7 @@ Result<MapLayer> decodeMapLayer(std::string_view bytes) {
     return makeError(ErrorCode::InvalidInput, "map layer: {} points are more than {}; dropped",
                      points.points(), kMaxMapLayerPoints);
   }
-  const auto cloud = unpackCloud({points.points(), points.resolution_m(), points.xyz(),
-                                  points.intensity(), points.ring(), points.time()});
+  const auto cloud = unpackCloud(points);
   if (!cloud) return tl::make_unexpected(cloud.error());
   MapLayer layer;
   layer.stamp = stampFromNanoseconds(in->stamp_ns());

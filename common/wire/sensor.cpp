@@ -61,35 +61,21 @@ Result<HeatBlob> fromProto(const v1::HeatBlob& in) {
 }  // namespace
 
 std::string encode(const PointCloud& cloud, double resolution_m) {
-  PackedCloud packed = packCloud(cloud, resolution_m);
-  v1::Cloud out;
+  v1::Cloud out = packCloud(cloud, resolution_m);
   out.set_stamp_ns(toNanoseconds(cloud.stamp));
   out.set_seq(cloud.seq);
   out.set_frame(cloud.frame);
-  out.set_points(packed.points);
-  out.set_resolution_m(packed.resolution_m);
-  out.set_xyz(std::move(packed.xyz));
-  out.set_intensity(std::move(packed.intensity));
-  out.set_ring(std::move(packed.ring));
-  out.set_time(std::move(packed.time));
   return serialise(out);
 }
 
 Result<PointCloud> decodeCloud(std::string_view bytes) {
-  auto in = parse<v1::Cloud>(bytes, kMaxStreamBytes, "cloud");
+  const auto in = parse<v1::Cloud>(bytes, kMaxStreamBytes, "cloud");
   if (!in) return tl::make_unexpected(in.error());
   if (in->frame().size() > kMaxFrameName) {
     return makeError(ErrorCode::InvalidInput, "cloud: frame name of {} characters; dropped",
                      in->frame().size());
   }
-  PackedCloud packed;
-  packed.points = in->points();
-  packed.resolution_m = in->resolution_m();
-  packed.xyz = std::move(*in->mutable_xyz());
-  packed.intensity = std::move(*in->mutable_intensity());
-  packed.ring = std::move(*in->mutable_ring());
-  packed.time = std::move(*in->mutable_time());
-  auto cloud = unpackCloud(packed);
+  auto cloud = unpackCloud(*in);
   if (!cloud) return cloud;
   cloud->stamp = stampFromNanoseconds(in->stamp_ns());
   cloud->seq = in->seq();

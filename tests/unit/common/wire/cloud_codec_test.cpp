@@ -49,9 +49,9 @@ TEST(CloudCodec, KeepsOrderAndCoordinatesWithinHalfAStep) {
 
 TEST(CloudCodec, PacksARoomAtLeastFiveTimesSmallerThanFloats) {
   const PointCloud cloud = makeRoom(1808, 5);
-  const PackedCloud packed = packCloud(cloud, 0.005);
+  const v1::Cloud packed = packCloud(cloud, 0.005);
   const std::size_t bytes =
-      packed.xyz.size() + packed.intensity.size() + packed.ring.size() + packed.time.size();
+      packed.xyz().size() + packed.intensity().size() + packed.ring().size() + packed.time().size();
   EXPECT_LT(bytes * 5, cloud.size() * 16);
   RecordProperty("bytes", static_cast<int>(bytes));
 }

@@ -95,24 +95,24 @@ TEST(CorruptInput, FlippedAndCutMessagesAreNeverACrash) {
 }
 
 TEST(CorruptInput, DeclaredSizesAreCheckedBeforeTheyAreAllocated) {
-  PackedCloud packed = packCloud(someCloud(), 0.005);
-  packed.points = kMaxCloudPoints;  // claims more than its planes hold
+  v1::Cloud packed = packCloud(someCloud(), 0.005);
+  packed.set_points(kMaxCloudPoints);  // claims more than its planes hold
   const auto more = unpackCloud(packed);
   ASSERT_FALSE(more.has_value());
   EXPECT_THAT(more.error().message, HasSubstr("are due"));
-  packed.points = kMaxCloudPoints + 1;
+  packed.set_points(kMaxCloudPoints + 1);
   EXPECT_FALSE(unpackCloud(packed).has_value());
-  packed.points = 300;
-  packed.ring =
-      compress(std::string(100'000'000, '\1'));  // a small frame that would unpack to 100 MB
-  EXPECT_LT(packed.ring.size(), 20'000u);
+  packed.set_points(300);
+  // A small frame that would unpack to 100 MB.
+  packed.set_ring(compress(std::string(100'000'000, '\1')));
+  EXPECT_LT(packed.ring().size(), 20'000u);
   EXPECT_FALSE(unpackCloud(packed).has_value());
 }
 
 TEST(CorruptInput, ResolutionsThatCannotBeAreRefused) {
-  PackedCloud packed = packCloud(someCloud(), 0.005);
+  v1::Cloud packed = packCloud(someCloud(), 0.005);
   for (const double wrong : {0.0, -1.0, 1e9, std::nan("")}) {
-    packed.resolution_m = wrong;
+    packed.set_resolution_m(wrong);
     EXPECT_FALSE(unpackCloud(packed).has_value()) << wrong;
   }
 }
