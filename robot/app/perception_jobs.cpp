@@ -42,7 +42,7 @@ ScanMotion motionDuring(const PointCloud& scan, const RobotGeometry& robot,
 void PerceptionJobs::Config::visit(ConfigArchive& a) {
   a.field("scan_latency_s", scan_latency_s, "s", 0, 1, "modelled latency of one scan in lockstep");
   a.field("moving_fix_period_s", moving_fix_period_s, "s", 0.05, 10,
-          "locate at most so often while moving");
+          "locate at most so often while moving, or lost");
   a.field("resting_fix_period_s", resting_fix_period_s, "s", 0.05, 60,
           "locate at most so often at rest");
 }
@@ -74,7 +74,9 @@ void PerceptionJobs::dispatchScan(Stamp now, Localizer& localizer, bool moving) 
   const auto scan = scans_.takeFresh();
   if (!scan) return;
   last_scan_ = now;
-  const double period_s = moving ? config_.moving_fix_period_s : config_.resting_fix_period_s;
+  const bool searching = localizer.relocateTries() > 0;  // over the arena, a place a scan
+  const double period_s =
+      moving || searching ? config_.moving_fix_period_s : config_.resting_fix_period_s;
   // Scans come at nearly the period: half a scan of slack keeps every one of them.
   const bool due = !last_fix_try_ || now - *last_fix_try_ >= fromSeconds(period_s - kHalfScan_s);
   const auto prior = due ? localizer.priorAt((*scan)->stamp) : std::nullopt;
