@@ -28,6 +28,9 @@ class ArmMotion {
   virtual void startPose(const Eigen::Isometry3d& X_base_flange, Stamp now) = 0;
   virtual void startCartesian(std::vector<Eigen::Isometry3d> X_base_flange, bool blend,
                               Stamp now) = 0;
+  /// Back to where the arm was that long before the last move ended, by its joints: away from what
+  /// it met, where it came from. Done at once after a move that never began.
+  virtual void startBack(double seconds, Stamp now) = 0;
   [[nodiscard]] virtual SkillStatus poll(Stamp now) = 0;
   virtual void cancel() = 0;  ///< arm decelerates and holds
   /// Reachable and free of collision now? Error says why not.

@@ -11,6 +11,7 @@
 #include "common/core/log.h"
 #include "robot/planning/arm_motion/joint_trajectory.h"
 #include "robot/planning/arm_motion/ur_inverse.h"
+#include "robot/skills/arm_postures.h"
 
 namespace kiln {
 namespace {
@@ -21,6 +22,9 @@ constexpr double kCarriedOn = 0.06;  // s; the controller follows a setpoint on 
 // Part of the guard force: an arm that lags while this much pushes against it may have met
 // something.
 constexpr double kTouched = 0.5;
+// Part of the guard force: so much more than at its start may press on a move that leaves a
+// contact.
+constexpr double kPressedHarder = 0.5;
 
 struct PoseGoal {
   Eigen::Isometry3d X_base_flange;
@@ -85,6 +89,12 @@ struct MoveArm::Impl {
     resumes = 0;
     stage_began = last = now;
     hold(now);
+  }
+
+  std::optional<Vector6d> beforeTheEnd(double seconds) const {
+    if (!trajectory) return std::nullopt;
+    const double end = std::min(toSeconds(streamed - stage_began), trajectory->duration());
+    return trajectory->at(std::max(0.0, end - seconds)).q;
   }
 
   /// Again from where the arm comes to rest, if nothing was touched and not too often.
@@ -180,38 +190,16 @@ struct MoveArm::Impl {
       }
       goals = {*q};
     } else {
-      goals = postures(std::get<PoseGoal>(goal).X_base_flange, q_start);
+      goals = posturesFor(robot, std::get<PoseGoal>(goal).X_base_flange, q_start);
       if (goals.empty()) return fail("unreachable", "no arm posture reaches the pose", now);
     }
     std::string nearest;
-    std::erase_if(goals, [&](const Vector6d& q) { return !roomFor(collision, q, nearest); });
+    std::erase_if(goals, [&](const Vector6d& q) {
+      return !hasRoom(collision, q, config.clearance_m, nearest);
+    });
     if (goals.empty()) return fail("in_collision", "the goal is too near: " + nearest, now);
     enter(Stage::Planning, now);
     return proceed(planner.start(q_start, goals), now);
-  }
-
-  /// Nearest first, by the time the slowest joint needs.
-  std::vector<Vector6d> postures(const Eigen::Isometry3d& X_base_flange,
-                                 const Vector6d& from) const {
-    std::vector<Vector6d> out;
-    const Eigen::Isometry3d X = robot.X_base_armbase.pose().inverse() * X_base_flange;
-    if (!isFinite(X)) return out;
-    for (const Vector6d& q : inverseSolutions(robot.arm, X, from)) {
-      out.push_back(nearestTurn(robot.arm, q, from));
-    }
-    const auto cost = [&](const Vector6d& q) {
-      return (q - from).cwiseAbs().cwiseQuotient(robot.arm.velocity_limit).maxCoeff();
-    };
-    std::stable_sort(out.begin(), out.end(),
-                     [&](const Vector6d& a, const Vector6d& b) { return cost(a) < cost(b); });
-    return out;
-  }
-
-  bool roomFor(const ArmCollision& world, const Vector6d& q, std::string& what) const {
-    const Clearance room = world.clearance(q);
-    if (room.distance_m >= config.clearance_m) return true;
-    if (what.empty()) what = fmt::format("{}, {:.0f} mm", room.what, 1e3 * room.distance_m);
-    return false;
   }
 
   SkillStatus planLines(const LineGoal& lines, Stamp now) {
@@ -272,9 +260,16 @@ struct MoveArm::Impl {
     }
     trajectory.emplace(std::move(paths), limits);
     streamed = now;
+    pressed_n = controller.tracking().contact_force_n;
     enter(Stage::Moving, now);
     stream(now);
     return status;
+  }
+
+  /// Something may press already, namely what the arm met and now leaves.
+  [[nodiscard]] double guard() const {
+    if (config.guard_force_n <= 0.0) return 0.0;
+    return std::max(config.guard_force_n, pressed_n + kPressedHarder * config.guard_force_n);
   }
 
   void stream(Stamp now) {
@@ -284,7 +279,7 @@ struct MoveArm::Impl {
     setpoint.stamp = now;
     setpoint.q = point.q;
     setpoint.qd = point.qd;
-    setpoint.stop_force_n = config.guard_force_n;
+    setpoint.stop_force_n = guard();
     controller.setpoint(setpoint);
     streamed = now;
   }
@@ -301,6 +296,7 @@ struct MoveArm::Impl {
     if (answered && now - tracking.stamp > std::chrono::milliseconds(500)) {
       return fail("timeout", "the control loop does not answer", now);
     }
+    pressed_n = std::min(pressed_n, tracking.contact_force_n);
     stream(now);
     const double left = std::max(0.0, trajectory->duration() - t);
     status.progress = trajectory->duration() > 0.0 ? 1.0 - left / trajectory->duration() : 1.0;
@@ -320,13 +316,13 @@ struct MoveArm::Impl {
 
   Result<Vector6d> check(const Eigen::Isometry3d& X_base_flange) const {
     const std::optional<ArmState> state = arm.state();
-    const auto goals = postures(X_base_flange, state ? state->q : Vector6d::Zero());
+    const auto goals = posturesFor(robot, X_base_flange, state ? state->q : Vector6d::Zero());
     if (goals.empty()) return makeError(ErrorCode::Degenerate, "no arm posture reaches the pose");
     ArmCollision world(robot);
     world.setScene(sceneBoxes(arena), pose());
     std::string nearest;
     for (const Vector6d& q : goals) {
-      if (roomFor(world, q, nearest)) return q;
+      if (hasRoom(world, q, config.clearance_m, nearest)) return q;
     }
     return makeError(ErrorCode::Refused, "the pose is too near: {}", nearest);
   }
@@ -344,6 +340,7 @@ struct MoveArm::Impl {
   Stage stage = Stage::Idle;
   int resumes = 0;
   Stamp stage_began, last, streamed;
+  double pressed_n = 0.0;  ///< least contact force since the move began
   Vector6d q_start = Vector6d::Zero();
   std::optional<JointTrajectory> trajectory;
   SkillStatus status;
@@ -367,6 +364,15 @@ void MoveArm::startPose(const Eigen::Isometry3d& X_base_flange, Stamp now) {
 
 void MoveArm::startCartesian(std::vector<Eigen::Isometry3d> X_base_flange, bool blend, Stamp now) {
   impl_->start(LineGoal{std::move(X_base_flange), blend}, now);
+}
+
+void MoveArm::startBack(double seconds, Stamp now) {
+  if (const auto q = impl_->beforeTheEnd(seconds)) {
+    impl_->start(*q, now);
+  } else {
+    impl_->stage = Impl::Stage::Idle;
+    impl_->status = {SkillPhase::Done, 1.0, "nothing to go back on", ""};
+  }
 }
 
 SkillStatus MoveArm::poll(Stamp now) { return impl_->poll(now); }

@@ -18,7 +18,8 @@ namespace kiln {
 /// Moves the arm to joint or Cartesian goals: inverse kinematics over all UR solutions, limits,
 /// self-collision, collision with base, tanks and the known scene, then a jerk-limited joint or
 /// straight-line trajectory that is streamed as setpoints at 50 Hz. Guarded by default: stops on
-/// unexpected force. Starting a move holds the arm first (which also ends a latched contact stop)
+/// unexpected force; a move that begins while something presses stops when it presses harder.
+/// Starting a move holds the arm first (which also ends a latched contact stop)
 /// and plans from rest. A move that something else than a contact interrupts (a loop that slipped,
 /// a state that came late, an arm that lags) is taken up again from where the arm rests, a bounded
 /// number of times; of a path only what is left. Failure codes: unreachable, in_collision, obstacle
@@ -57,6 +58,7 @@ class MoveArm final : public ArmMotion {
   void startPose(const Eigen::Isometry3d& X_base_flange, Stamp now) override;
   /// Straight lines through flange poses in base, jerk-limited, without stopping when `blend`.
   void startCartesian(std::vector<Eigen::Isometry3d> X_base_flange, bool blend, Stamp now) override;
+  void startBack(double seconds, Stamp now) override;
   [[nodiscard]] SkillStatus poll(Stamp now) override;
   void cancel() override;  ///< arm decelerates and holds
   /// Reachable and free of collision now? Error says why not.

@@ -22,7 +22,7 @@ struct FaultyRun {
   std::vector<std::string> states;
 };
 
-FaultyRun runWith(const std::string& fault) {
+FaultyRun runWith(const std::string& fault, const std::string& may_touch = "") {
   MissionRunOptions options;
   options.programs = kiln::binaryDir() + "/bin";
   options.world_args = {"--fault", fault};
@@ -33,7 +33,8 @@ FaultyRun runWith(const std::string& fault) {
   }
   FaultyRun out{*run, json::parse(run->report_json), {}};
   for (const json& state : out.report["states"]) out.states.push_back(state["name"]);
-  EXPECT_TRUE(out.report["collisions"].empty()) << out.report["collisions"].dump();
+  for (const json& collision : out.report["collisions"])
+    EXPECT_EQ(collision["other"], may_touch) << out.report["collisions"].dump();
   return out;
 }
 
@@ -59,6 +60,16 @@ TEST(Faults, BlockedPumpsAreTriedOnceMoreThenThePlaceIsLeft) {
   EXPECT_THAT(run.states.back(), testing::AnyOf("NothingFound", "SafeStop"));
   EXPECT_NE(run.report["reason"].get<std::string>().find("the pumps do not run"), std::string::npos)
       << run.report["reason"];
+}
+
+// Unfolding meets the box, withdraws from it, waits and tries again when it has gone.
+TEST(Faults, AnArmThatMeetsSomethingWithdrawsAndTriesAgain) {
+  const FaultyRun run = runWith("arm_obstacle@30:5", "obstacle");
+  ASSERT_FALSE(run.states.empty());
+  EXPECT_FALSE(run.report["collisions"].empty()) << "the arm never met it";
+  EXPECT_GE(visits(run, "ArmBlocked"), 1);
+  EXPECT_EQ(visits(run, "ProtectiveStop"), 0);
+  EXPECT_EQ(run.report["mission_outcome"], "success") << run.run.report_json;
 }
 
 TEST(Faults, AProtectiveStopThatNobodyReleasesEndsWithTheClockAndTheReason) {

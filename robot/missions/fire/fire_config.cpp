@@ -91,7 +91,8 @@ void FireSprayConfig::visit(ConfigArchive& a) {
 void FireFaultConfig::visit(ConfigArchive& a) {
   a.field("pump_rest_s", pump_rest_s, "s", 0.0, 30.0, "before a retry");
   a.field("max_pump_faults", max_pump_faults, "", 0, 10, "retries a place");
-  a.field("back_off_m", back_off_m, "m", 0.0, 0.5, "the arm withdraws after a contact");
+  a.field("back_off_s", back_off_s, "s", 0.0, 10,
+          "of its way that the arm goes back after a contact");
   a.field("arm_rest_s", arm_rest_s, "s", 0.0, 10.0, "before a retry");
   a.field("max_arm_faults", max_arm_faults, "", 0, 10, "retries a place");
   a.field("max_blocked_in_row", max_blocked_in_row, "", 1, 50,

@@ -87,7 +87,7 @@ struct FireSprayConfig {
 struct FireFaultConfig {
   double pump_rest_s = 1.5;  ///< before a retry
   int max_pump_faults = 1;   ///< retries a place
-  double back_off_m = 0.15;  ///< the arm withdraws after a contact
+  double back_off_s = 1.0;   ///< after a contact the arm goes back so much of its way
   double arm_rest_s = 0.5;
   int max_arm_faults = 1;       ///< retries a place
   int max_blocked_in_row = 4;   ///< then the arm is given up

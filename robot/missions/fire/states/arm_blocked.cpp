@@ -15,12 +15,7 @@ void ArmBlocked::enter() {
   c.aim.reset();
   ++c.world().blocked_in_row;
   if (c.hasPlace()) ++c.place().arm_faults;
-  const auto X_base_flange = c.X_base_flange();
-  if (!X_base_flange || c.config.faults.back_off_m <= 0.0) return;
-  // Back along the viewing direction, away from what was in front of the head.
-  Eigen::Isometry3d X_back = *X_base_flange;
-  X_back.translation() -= c.config.faults.back_off_m * X_back.linear().col(2);
-  c.devices.arm.startCartesian({X_back}, false, now());
+  c.devices.arm.startBack(c.config.faults.back_off_s, now());
 }
 
 Transition ArmBlocked::execute() {

@@ -20,6 +20,7 @@ class ScriptedArm final : public ArmMotion {
     begin(now);
     last_round = poses.size();
   }
+  void startBack(double, Stamp now) override { begin(now); }
   SkillStatus poll(Stamp now) override {
     if (!fail.empty()) return {SkillPhase::Failed, 0.0, fail, "contact"};
     if (!moving) return {};

@@ -159,6 +159,36 @@ TEST_F(MoveArmTest, ContactEndsTheMoveAndTheNextMoveWorks) {
   EXPECT_EQ(run().phase, SkillPhase::Done) << status.failure_code << ": " << status.text;
 }
 
+TEST_F(MoveArmTest, GoesBackOnItsWayFromAContactThatStillPresses) {
+  const Vector6d begin = arm.state()->q;
+  skill.startJoints(RobotGeometry::radians(robot.q_park_deg), clock.now());
+  polling = true;
+  advance(1.0);
+  arm.setForce({0, 0, 90});
+  advance(0.3);
+  ASSERT_EQ(status.failure_code, "contact") << status.text;
+  const Vector6d at = arm.state()->q;
+  arm.setForce({0, 0, 80});  // the arm rests and leans on it
+  skill.startBack(0.6, clock.now());
+  advance(0.6);
+  arm.setForce({0, 0, 0});  // by now it is clear
+  EXPECT_EQ(run().phase, SkillPhase::Done) << status.failure_code << ": " << status.text;
+  EXPECT_LT((arm.state()->q - begin).norm(), (at - begin).norm() - 0.05);
+
+  skill.startJoints(RobotGeometry::radians(robot.q_park_deg), clock.now());
+  polling = true;
+  advance(1.0);
+  arm.setForce({0, 0, 90});
+  advance(0.3);
+  ASSERT_EQ(status.failure_code, "contact") << status.text;
+  skill.startBack(1.0, clock.now());
+  advance(0.3);
+  ASSERT_EQ(status.phase, SkillPhase::Running) << status.failure_code << ": " << status.text;
+  arm.setForce({0, 0, 140});  // presses harder than it did: the way back is not free either
+  advance(0.3);
+  EXPECT_EQ(status.failure_code, "contact") << status.text;
+}
+
 TEST_F(MoveArmTest, ProtectiveStopAndStopEndTheMove) {
   skill.startJoints(RobotGeometry::radians(robot.q_park_deg), clock.now());
   polling = true;

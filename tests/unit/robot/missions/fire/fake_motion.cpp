@@ -78,6 +78,10 @@ void FakeArmMotion::startCartesian(std::vector<Eigen::Isometry3d> X_base_flange,
   if (!all) fail_code_ = "unreachable";
 }
 
+void FakeArmMotion::startBack(double, Stamp now) {
+  begin("back", {path_.empty() ? device_.state()->q : path_.front()}, now);
+}
+
 SkillStatus FakeArmMotion::poll(Stamp now) {
   if (!moving_) return ended_;
   travelled_ += kJointSpeed * toSeconds(now - last_);

@@ -18,11 +18,14 @@ class FakeArmMotion final : public ArmMotion {
   void startJoints(const Vector6d& q_goal, Stamp now) override;
   void startPose(const Eigen::Isometry3d& X_base_flange, Stamp now) override;
   void startCartesian(std::vector<Eigen::Isometry3d> X_base_flange, bool blend, Stamp now) override;
+  /// To where the last motion began.
+  void startBack(double seconds, Stamp now) override;
   [[nodiscard]] SkillStatus poll(Stamp now) override;
   void cancel() override { moving_ = false; }
   [[nodiscard]] Result<Vector6d> check(const Eigen::Isometry3d& X_base_flange) const override;
 
   [[nodiscard]] bool moving() const { return moving_; }
+  [[nodiscard]] const Vector6d& goal() const { return path_.back(); }
   /// The next motion of a kind ("joints", "pose", "cartesian") fails half-way with this code; with
   /// "stuck" at once.
   void failNext(const std::string& kind, const std::string& code) {

@@ -16,6 +16,7 @@ class ObedientArm final : public ArmMotion {
   void startCartesian(std::vector<Eigen::Isometry3d> X, bool, Stamp) override {
     orders.push_back("cartesian " + std::to_string(X.size()));
   }
+  void startBack(double, Stamp) override { orders.push_back("back"); }
   [[nodiscard]] SkillStatus poll(Stamp) override {
     return {failure.empty() ? SkillPhase::Done : SkillPhase::Failed, 1.0, failure,
             std::exchange(failure, {})};
