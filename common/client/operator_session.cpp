@@ -1,6 +1,5 @@
 #include "common/client/operator_session.h"
 
-#include <array>
 #include <deque>
 #include <mutex>
 #include <random>
@@ -8,20 +7,14 @@
 
 #include "common/client/command_tracker.h"
 #include "common/client/hold_stream.h"
-#include "common/client/link_watch.h"
+#include "common/client/link_talk.h"
 #include "common/client/topic_dispatch.h"
-#include "common/transport/clock_sync.h"
 #include "common/transport/station_end.h"
 #include "common/wire/command.h"
 
 namespace kiln {
 namespace {
 
-constexpr double kHelloPeriod_s = 0.1;
-constexpr double kHeartbeatPeriod_s = 0.2;
-constexpr double kFirstHeartbeats_s =
-    0.04;  // quick ones after a hello: the clock estimate must not wait
-constexpr int kFirstHeartbeats = 8;
 constexpr double kReportPeriod_s = 0.2;
 
 std::string randomClientId() {
@@ -37,7 +30,9 @@ struct OperatorSession::Impl {
         callbacks(std::move(cb)),
         clock(station_clock),
         client_id(randomClientId()),
-        watch(config.degraded_after_s, config.lost_after_s),
+        talk({kProtocolVersion, config.program_version, client_id, config.operator_name,
+              config.role, config.expected_mission_uuid},
+             config.degraded_after_s, config.lost_after_s),
         tracker(config.ack_timeout_s),
         holds(config.setpoint_rate_hz, config.hold_ttl_s) {}
 
@@ -50,7 +45,6 @@ struct OperatorSession::Impl {
                    std::uint64_t lost);
   void onStatus(const RobotStatus& status);
   void onTick();
-  void talk(Monotonic::time_point now);
   void reportLink(Monotonic::time_point now);
   void setLease(LeaseView view, std::unique_lock<std::mutex>& lock);
   void bad(const Error& error) {
@@ -70,19 +64,13 @@ struct OperatorSession::Impl {
   const std::string client_id;
 
   mutable std::mutex mutex;  // guards what follows, up to the ends
-  LinkWatch watch;
-  ClockSync sync;
+  LinkTalk talk;
   CommandTracker tracker;
   HoldStream holds;
   LeaseView lease;
   std::uint64_t last_nonce = 0;
-  std::uint64_t heartbeats = 0;
-  int quick_heartbeats = 0;
-  std::optional<Monotonic::time_point> hello_sent, heartbeat_sent, reported;
+  std::optional<Monotonic::time_point> reported;
   LinkState reported_state = LinkState::Connecting;
-  std::uint64_t bytes_received = 0;
-  std::array<std::uint64_t, kTopicCount> lost{};
-  std::array<std::uint64_t, kTopicCount> robot_dropped{};
   std::deque<CommandUpdate> updates;  // to be delivered on the link thread
 
   std::unique_ptr<StationEnd> end;
@@ -125,7 +113,7 @@ Result<std::unique_ptr<StopCaller>> OperatorSession::Impl::connectStopLane(
                              {callbacks.on_stop, callbacks.on_bad_message,
                               [this](std::int64_t robot_ns) {
                                 const std::lock_guard lock(mutex);
-                                return sync.toStation(robot_ns);
+                                return talk.clock().toStation(robot_ns);
                               }},
                              clock);
 }
@@ -149,8 +137,7 @@ void OperatorSession::Impl::onMessage(std::string_view bytes) {
   if (!message) return bad(message.error());
   {
     const std::lock_guard lock(mutex);
-    watch.heard(monotonicNow());
-    bytes_received += bytes.size();
+    talk.heard(bytes.size(), monotonicNow());
   }
   if (const auto* reply = std::get_if<HelloReply>(&*message)) return onHelloReply(*reply);
   if (const auto* heartbeat = std::get_if<Heartbeat>(&*message)) return onHeartbeat(*heartbeat);
@@ -160,14 +147,8 @@ void OperatorSession::Impl::onMessage(std::string_view bytes) {
 void OperatorSession::Impl::onHelloReply(const HelloReply& reply) {
   {
     std::unique_lock lock(mutex);
-    if (reply.accepted) {
-      watch.accepted();
-    } else {
-      // A robot that restarted does not know us: whatever we held there is gone.
-      watch.refused(reply.reason);
-      sync.reset();
-      setLease({}, lock);
-    }
+    talk.onHelloReply(reply);
+    if (!reply.accepted) setLease({}, lock);  // whatever we held there is gone
   }
   if (callbacks.on_hello) callbacks.on_hello(reply);
 }
@@ -175,13 +156,7 @@ void OperatorSession::Impl::onHelloReply(const HelloReply& reply) {
 void OperatorSession::Impl::onHeartbeat(const Heartbeat& heartbeat) {
   const std::int64_t received_ns = toNanoseconds(clock.now());
   const std::lock_guard lock(mutex);
-  // Sent unasked when the robot has not heard us for a while: it keeps the down-link alive and
-  // proves nothing else.
-  if (heartbeat.station_send_ns == 0) return;
-  watch.robotHeardUs(static_cast<double>(received_ns - heartbeat.station_send_ns) * 1e-9,
-                     monotonicNow());
-  sync.add(heartbeat.station_send_ns, heartbeat.robot_receive_ns, heartbeat.robot_send_ns,
-           received_ns);
+  talk.onHeartbeat(heartbeat, received_ns, monotonicNow());
 }
 
 void OperatorSession::Impl::onAck(const CommandAck& ack) {
@@ -199,12 +174,9 @@ void OperatorSession::Impl::onPublished(Topic topic, const FrameHeader& header,
   arrival.lost_before = lost_now;
   {
     const std::lock_guard lock(mutex);
-    const auto index = static_cast<std::size_t>(topic);
-    watch.heard(monotonicNow());
-    bytes_received += payload.size();
-    lost[index] += lost_now;
-    robot_dropped[index] = header.dropped_before;
-    if (const auto sent = sync.toStation(header.published_ns)) {
+    talk.heard(payload.size(), monotonicNow());
+    talk.onFrame(topic, lost_now, header.dropped_before);
+    if (const auto sent = talk.clock().toStation(header.published_ns)) {
       arrival.latency_s = toSeconds(arrival.received - stampFromNanoseconds(*sent));
     }
   }
@@ -236,7 +208,7 @@ void OperatorSession::Impl::setLease(LeaseView view, std::unique_lock<std::mutex
 void OperatorSession::Impl::onTick() {
   const auto now = monotonicNow();
   std::unique_lock lock(mutex);
-  talk(now);
+  if (const auto word = talk.due(now, toNanoseconds(clock.now()))) end->send(wire::encode(*word));
   for (CommandBody& body : holds.due(now)) {
     // Without a link the setpoint is not sent, and never later.
     if (const auto command = makeCommand(std::move(body)))
@@ -246,29 +218,6 @@ void OperatorSession::Impl::onTick() {
   finishUpdates(lock);
   lock.unlock();
   reportLink(now);
-}
-
-void OperatorSession::Impl::talk(Monotonic::time_point now) {
-  const auto due = [now](const std::optional<Monotonic::time_point>& last, double period_s) {
-    return !last || secondsBetween(*last, now) >= period_s;
-  };
-  const auto rx_age_s = watch.rxAge(now);
-  if (!watch.isAccepted()) {
-    if (!due(hello_sent, kHelloPeriod_s)) return;
-    hello_sent = now;
-    quick_heartbeats = kFirstHeartbeats;
-    end->send(wire::encode(
-        ToRobot{Hello{kProtocolVersion, config.program_version, client_id, config.operator_name,
-                      config.role, config.expected_mission_uuid}}));
-    return;
-  }
-  if (!due(heartbeat_sent, quick_heartbeats > 0 ? kFirstHeartbeats_s : kHeartbeatPeriod_s)) return;
-  heartbeat_sent = now;
-  if (quick_heartbeats > 0) --quick_heartbeats;
-  const auto estimate = sync.estimate();
-  end->send(
-      wire::encode(ToRobot{Heartbeat{++heartbeats, toNanoseconds(clock.now()), 0, 0,
-                                     rx_age_s.value_or(0.0), estimate ? estimate->rtt_s : 0.0}}));
 }
 
 void OperatorSession::Impl::reportLink(Monotonic::time_point now) {
@@ -286,31 +235,12 @@ void OperatorSession::Impl::reportLink(Monotonic::time_point now) {
 }
 
 LinkReport OperatorSession::Impl::makeReport(Monotonic::time_point now) const {
-  LinkReport report;
-  watch.report(now, report);
-  if (const auto estimate = sync.estimate()) {
-    report.clock_known = true;
-    report.clock_offset_s = estimate->offset_s;
-    report.clock_uncertainty_s = estimate->uncertainty_s;
-    report.clock_drift_ppm = estimate->drift_ppm;
-    report.rtt_s = estimate->rtt_s;
-    report.rtt_p95_s = estimate->rtt_p95_s;
-  }
-  report.bytes_received = bytes_received;
-  for (const TopicInfo& info : topicTable()) {
-    const auto index = static_cast<std::size_t>(info.topic);
-    report.drops.push_back({std::string(info.name), lost[index] + robot_dropped[index]});
-  }
-  report.drops.push_back({"commands", end ? end->droppedSends() : 0});
-  return report;
+  return talk.report(now, end ? end->droppedSends() : 0);
 }
 
 std::optional<Command> OperatorSession::Impl::makeCommand(CommandBody body) {
-  LinkReport report;
-  watch.report(monotonicNow(), report);
-  const auto issued = sync.toRobot(toNanoseconds(clock.now()));
-  if ((report.state != LinkState::Connected && report.state != LinkState::Degraded) || !issued)
-    return std::nullopt;
+  const auto issued = talk.commandTime(monotonicNow(), toNanoseconds(clock.now()));
+  if (!issued) return std::nullopt;
   return Command{client_id,
                  config.operator_name,
                  ++last_nonce,
@@ -390,13 +320,13 @@ StopReport OperatorSession::stopReport() const { return impl_->stop_caller->repo
 
 std::optional<Stamp> OperatorSession::toStationTime(Stamp robot) const {
   const std::lock_guard lock(impl_->mutex);
-  const auto ns = impl_->sync.toStation(toNanoseconds(robot));
+  const auto ns = impl_->talk.clock().toStation(toNanoseconds(robot));
   return ns ? std::optional(stampFromNanoseconds(*ns)) : std::nullopt;
 }
 
 std::optional<Stamp> OperatorSession::toRobotTime(Stamp station) const {
   const std::lock_guard lock(impl_->mutex);
-  const auto ns = impl_->sync.toRobot(toNanoseconds(station));
+  const auto ns = impl_->talk.clock().toRobot(toNanoseconds(station));
   return ns ? std::optional(stampFromNanoseconds(*ns)) : std::nullopt;
 }
 
