@@ -19,7 +19,7 @@ class CameraCalibrator {
     double search_px = 18.0;      ///< across an edge, in the first rounds; a third at last
     double min_step_grey = 14.0;  ///< difference of brightness that counts as an edge
     double noise_px = 0.7;
-    double prior_m = 0.005, prior_deg = 1.0;  ///< one picture holds position only weakly
+    double prior_m = 0.01, prior_deg = 1.0;  ///< one picture holds position only weakly
     int rounds = 14;
     int min_points = 40;
     void visit(ConfigArchive& a);
