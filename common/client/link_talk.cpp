@@ -57,7 +57,8 @@ std::optional<ToRobot> LinkTalk::due(Monotonic::time_point now, std::int64_t clo
                    0,
                    0,
                    watch_.rxAge(now).value_or(0.0),
-                   estimate ? estimate->rtt_s : 0.0};
+                   estimate ? estimate->rtt_s : 0.0,
+                   sync_.toRobot(clock_ns).value_or(0)};
 }
 
 std::optional<std::int64_t> LinkTalk::commandTime(Monotonic::time_point now,

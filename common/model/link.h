@@ -27,6 +27,8 @@ struct Heartbeat {
   std::int64_t robot_send_ns = 0;     ///< t2, robot clock; from the robot only
   double rx_age_s = 0.0;  ///< age of the newest message from the other side, as the sender sees it
   double rtt_s = 0.0;     ///< sender's last estimate; 0 = none yet
+  std::int64_t robot_estimate_ns = 0;  ///< station_send_ns by the robot's clock, as the station
+                                       ///< believes; 0 = no estimate yet
 };
 
 /// The STOP lane: a socket and thread of its own, no lease, from anybody. Repeated at 20 Hz until

@@ -39,7 +39,8 @@ struct Check {  ///< preflight row
   std::string name;
   bool ok = false;
   std::string detail;    ///< what was found: "10.0 Hz", "no scan for 2.1 s"
-  std::string action{};  ///< what to do when it fails; empty while ok
+  std::string action{};  ///< what to do when it fails or warns; empty while all is well
+  bool warn = false;     ///< ok, yet look at it; a mission may start
 };
 
 struct LeaseStatus {

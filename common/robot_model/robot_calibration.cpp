@@ -31,7 +31,8 @@ PoseConfig poseConfig(const Eigen::Isometry3d& X) {
   const double yaw = upright ? std::atan2(R(1, 0), R(0, 0)) : 0.0;
   const double roll = upright ? std::atan2(R(2, 1), R(2, 2)) : std::atan2(-R(1, 2), R(1, 1));
   return {{X.translation().x(), X.translation().y(), X.translation().z()},
-          {roll / kDeg, pitch / kDeg, yaw / kDeg}};
+          {roll / kDeg, pitch / kDeg, yaw / kDeg},
+          true};
 }
 
 RobotCalibration RobotCalibration::of(const RobotGeometry& nominal) {

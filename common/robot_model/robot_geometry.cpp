@@ -5,6 +5,7 @@
 namespace kiln {
 
 void PoseConfig::visit(ConfigArchive& a) {
+  stated = true;  // a loader comes here only for what stands in its file
   a.field("xyz_m", xyz_m, "m", -1e3, 1e3, "position");
   a.field("rpy_deg", rpy_deg, "deg", -360, 360, "roll, pitch, yaw; R = Rz(yaw) Ry(pitch) Rx(roll)");
 }
@@ -28,6 +29,8 @@ void RobotGeometry::visit(ConfigArchive& a) {
   a.field("wheel_y_m", wheel_y_m, "m", 0.05, 2, "steering axes at +-y");
   a.field("steer_limit_deg", steer_limit_deg, "deg", 45, 360, "each side");
   a.field("steer_rate_deg_s", steer_rate_deg_s, "deg/s", 1, 1000, "29 rpm (data sheet)");
+  a.field("max_wheel_speed_mps", max_wheel_speed_mps, "m/s", 0.1, 10, "of each hub motor");
+  a.field("max_decel_mps2", max_decel_mps2, "m/s2", 0.5, 10, "what the drives can brake with");
   a.list("body", body, "boxes fixed in base");
   a.section("X_base_armbase", X_base_armbase, "arm mount");
   a.section("X_flange_lidar", X_flange_lidar, "LiDAR");

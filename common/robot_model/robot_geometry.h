@@ -14,6 +14,7 @@ namespace kiln {
 struct PoseConfig {
   std::vector<double> xyz_m{0, 0, 0};
   std::vector<double> rpy_deg{0, 0, 0};
+  bool stated = false;  ///< a file or a calibration names it; else it is nothing but a default
   void visit(ConfigArchive& a);
   [[nodiscard]] Eigen::Isometry3d pose() const;
 };
@@ -33,7 +34,9 @@ struct RobotGeometry {
   double wheel_radius_m = 0.085;
   double wheel_x_m = 0.70, wheel_y_m = 0.58;  ///< steering axes at (+-x, +-y)
   double steer_limit_deg = 180.0;
-  double steer_rate_deg_s = 174.0;  ///< 29 rpm
+  double steer_rate_deg_s = 174.0;   ///< 29 rpm
+  double max_wheel_speed_mps = 4.0;  ///< of each hub motor (paper: 4 m/s), at the ground
+  double max_decel_mps2 = 2.5;       ///< what the drives' own stop brakes with
   std::vector<BoxConfig>
       body;  ///< deck, tanks, storage: in base; for collision, drawing, self filter
   PoseConfig X_base_armbase;

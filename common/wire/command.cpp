@@ -49,11 +49,12 @@ void toProto(const Heartbeat& heartbeat, v1::Heartbeat& out) {
   out.set_robot_send_ns(heartbeat.robot_send_ns);
   out.set_rx_age_s(heartbeat.rx_age_s);
   out.set_rtt_s(heartbeat.rtt_s);
+  out.set_robot_estimate_ns(heartbeat.robot_estimate_ns);
 }
 
 Heartbeat fromProto(const v1::Heartbeat& in) {
-  return {in.seq(),           in.station_send_ns(), in.robot_receive_ns(),
-          in.robot_send_ns(), in.rx_age_s(),        in.rtt_s()};
+  return {in.seq(),      in.station_send_ns(), in.robot_receive_ns(), in.robot_send_ns(),
+          in.rx_age_s(), in.rtt_s(),           in.robot_estimate_ns()};
 }
 
 void toProto(const Command& command, v1::Command& out) {

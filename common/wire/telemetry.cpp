@@ -102,6 +102,7 @@ void listsToProto(const RobotStatus& status, v1::RobotStatus& out) {
     row.set_ok(check.ok);
     row.set_detail(validUtf8(check.detail));
     row.set_action(validUtf8(check.action));
+    row.set_warn(check.warn);
   }
   for (const double angle : status.wheel_steer_rad) out.add_wheel_steer_rad(angle);
   for (const Alarm& alarm : status.alarms) toProto(alarm, *out.add_alarms());
@@ -115,7 +116,7 @@ void listsToProto(const RobotStatus& status, v1::RobotStatus& out) {
 
 Result<void> listsFromProto(const v1::RobotStatus& in, RobotStatus& status) {
   for (const v1::Check& row : in.checks())
-    status.checks.push_back({row.name(), row.ok(), row.detail(), row.action()});
+    status.checks.push_back({row.name(), row.ok(), row.detail(), row.action(), row.warn()});
   if (auto ok = copyFixed(in.wheel_steer_rad(), status.wheel_steer_rad, "wheels"); !ok) return ok;
   for (const v1::Alarm& row : in.alarms()) {
     auto alarm = fromProto(row);

@@ -38,7 +38,8 @@ json listsOf(const RobotStatus& status) {
     lists["checks"].push_back({{"name", check.name},
                                {"ok", check.ok},
                                {"detail", check.detail},
-                               {"action", check.action}});
+                               {"action", check.action},
+                               {"warn", check.warn}});
   }
   for (const Alarm& alarm : status.alarms) lists["alarms"].push_back(toJson(alarm));
   for (const DropCount& drop : status.drops) lists["drops"][drop.topic] = drop.dropped;

@@ -1,6 +1,8 @@
 #include "robot/app/operator_link.h"
 
+#include <algorithm>
 #include <cmath>
+#include <deque>
 #include <map>
 #include <mutex>
 #include <utility>
@@ -29,8 +31,18 @@ double saneDuration(double seconds) {
   return std::isfinite(seconds) && seconds >= 0.0 ? seconds : kUnusableRtt_s;
 }
 
+constexpr std::size_t kClockSamples = 8;
+
+/// How far outside the round trip a heartbeat has spent by the station's own estimate of our clock.
+double clockError(const Heartbeat& heartbeat, Stamp received) {
+  const double under_way_s =
+      toSeconds(received - stampFromNanoseconds(heartbeat.robot_estimate_ns));
+  return under_way_s - std::clamp(under_way_s, 0.0, saneDuration(heartbeat.rtt_s));
+}
+
 struct Peer {
   OperatorPeer seen;
+  std::deque<double> clock_errors_s;  ///< the best of the last ones counts: heartbeats get delayed
   Monotonic::time_point heard;
   Monotonic::time_point heartbeat_sent;
   std::uint64_t heartbeats = 0;
@@ -205,6 +217,13 @@ void OperatorLink::Impl::onHeartbeat(const std::string& from, const Heartbeat& h
     Peer& peer = peers[from];
     peer.seen.rtt_s = saneDuration(heartbeat.rtt_s);
     peer.seen.peer_rx_age_s = saneDuration(heartbeat.rx_age_s);
+    if (heartbeat.robot_estimate_ns != 0) {
+      peer.clock_errors_s.push_back(clockError(heartbeat, received));
+      if (peer.clock_errors_s.size() > kClockSamples) peer.clock_errors_s.pop_front();
+      peer.seen.clock_error_s =
+          *std::min_element(peer.clock_errors_s.begin(), peer.clock_errors_s.end(),
+                            [](double a, double b) { return std::abs(a) < std::abs(b); });
+    }
     peer.heartbeat_sent = monotonicNow();
     answer.seq = ++peer.heartbeats;
     answer.rtt_s = peer.seen.rtt_s;

@@ -94,7 +94,10 @@ Robot::Impl::Impl(const RobotSettings& settings_in, const RobotOptions& options_
       authority(settings.authority),
       control({mission, teleop, macros, alarms, stop, devices.arm, arm, devices.arena,
                [this] { return pose(); }, [this] { return positionLost(); },
-               [this](const Pose2& X_map_base) { localizer.reset(X_map_base, clock.now()); },
+               [this](const Pose2& X_map_base) {
+                 localizer.reset(X_map_base, clock.now());
+                 forgetMatch();
+               },
                options.recorder ? [recorder = options.recorder](bool on) { recorder->set(on); }
                                 : std::function<void(bool)>()}),
       telemetry({10.0, 10.0, 5.0, 1.0, settings.camera_rate_hz, settings.jpeg_quality}, link,
@@ -103,6 +106,7 @@ Robot::Impl::Impl(const RobotSettings& settings_in, const RobotOptions& options_
 
 void Robot::Impl::start(Executor& executor) {
   const Stamp now = clock.now();
+  limits = controllerLimits(settings, robot);
   log_sink = addLogSink([this](const LogRecord& record) { telemetry.onLog(record, clock.now()); });
   localizer.reset(options.start_pose.value_or(arena.start.pose()), now);
   resets_seen = devices.resets();
@@ -154,12 +158,18 @@ void Robot::Impl::readSensors(Stamp now) {
     surroundings.clear();
     motion_watch.restart();
     localizer.reset(arena.start.pose(), now);
+    forgetMatch();
     carried = now;
     control.onReset(now);
     return;  // the old odometry is still in the tracking of this instant
   }
   const BaseTracking tracking = base.tracking();
-  if (tracking.ready) localizer.addOdometry(tracking.stamp, tracking.X_odom_base);
+  // Also after a STOP: it may roll or be pushed, and the operator wants to know where it stands.
+  const auto wheels = devices.base.state();
+  const bool stopped_and_heard = tracking.stop_latched && wheels &&
+                                 toSeconds(now - wheels->stamp) <= settings.base.max_state_age_s;
+  if (tracking.ready || stopped_and_heard)
+    localizer.addOdometry(tracking.stamp, tracking.X_odom_base);
   tracked = localizer.pose(now);
   perception.dispatch(now, localizer, !tracking.at_rest);
 }
@@ -167,7 +177,7 @@ void Robot::Impl::readSensors(Stamp now) {
 void Robot::Impl::takePerception(Stamp now) {
   for (auto& result : perception.takeScans()) {
     if (result.match) {
-      (void)localizer.addResult(result.prior, *result.match);
+      noteMatch(*result.match, localizer.addResult(result.prior, *result.match));
       if (locate_s.size() < kMostCosts) locate_s.push_back(static_cast<float>(result.locate_s));
     }
     placeScan(result);
@@ -184,6 +194,7 @@ void Robot::Impl::takePerception(Stamp now) {
       recordEstimate(result.detections.stamp, X_map_thermal);
     }
     last_heat = result.detections;
+    if (last_heat->usable) usable_heat = last_heat->stamp;
     telemetry.publish(result.image);
     telemetry.publish(std::move(result.detections));
   }
@@ -257,6 +268,7 @@ void Robot::Impl::obeyOperators(Stamp now) {
 }
 
 void Robot::Impl::startWhenReady(Stamp now) {
+  lookAtDisk(now);
   checks = preflight(preflightInputs(now), settings.preflight);
   if (resume_pending && allOk(checks)) {
     resume_pending = false;

@@ -41,6 +41,13 @@ struct Robot::Impl {
   [[nodiscard]] Scene scene(Stamp now) const;
   [[nodiscard]] LocalizationStatus localizationStatus() const;
   [[nodiscard]] PreflightInputs preflightInputs(Stamp now) const;
+  [[nodiscard]] std::vector<std::string> missingTransforms(Stamp now) const;
+  [[nodiscard]] std::vector<ClockReading> clockReadings(Stamp now) const;
+  /// Free space, looked at every two seconds.
+  void lookAtDisk(Stamp now);
+  /// What the map makes of a scan, for the preflight; forgotten when the robot is put elsewhere.
+  void noteMatch(const Result<ScanMatch>& match, bool believed);
+  void forgetMatch();
   [[nodiscard]] bool atStandstill() const;
   [[nodiscard]] Pose2 pose() const { return tracked.X_map_base; }
   /// Why nobody knows where the robot is, in words; empty: it is known.
@@ -94,8 +101,14 @@ struct Robot::Impl {
   LogSinkHandle log_sink;
 
   std::vector<Check> checks;
+  std::vector<LimitRow> limits;  ///< configured against possible
+  std::optional<MapFit> map_fit;
+  std::string match_failure;
+  std::optional<double> disk_free_gb;
+  std::optional<Stamp> disk_seen;
   FsmStatus fsm;
   std::optional<HeatDetections> last_heat;
+  std::optional<Stamp> usable_heat;  ///< of the newest picture that was not refused
   std::uint32_t resets_seen = 0;
   std::optional<Stamp> mission_start;
   std::uint64_t status_seq = 0;
@@ -107,6 +120,10 @@ struct Robot::Impl {
   bool camera_runs = false;
   std::atomic<bool> ended{false}, succeeded{false};
 };
+
+[[nodiscard]] inline std::optional<Vector6d> joints(const std::optional<ArmState>& arm) {
+  return arm ? std::optional(arm->q) : std::nullopt;
+}
 
 /// Seconds since `stamp`; nullopt if it never was.
 [[nodiscard]] inline std::optional<double> ageOf(const std::optional<Stamp>& stamp, Stamp now) {

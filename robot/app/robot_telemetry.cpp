@@ -1,4 +1,4 @@
-// What the robot tells of itself: status, scene, alarms, preflight inputs.
+// What the robot tells of itself: status, scene, alarms.
 #include <algorithm>
 #include <cmath>
 
@@ -10,11 +10,6 @@ namespace {
 
 constexpr double kRest_radps = 0.02;  ///< joints and wheels below this stand still
 constexpr double kPumpRest_a = 0.3;
-
-template <class T>
-std::optional<Stamp> stampOf(const std::optional<T>& state) {
-  return state ? std::optional(state->stamp) : std::nullopt;
-}
 
 /// Rules of Challenge 3: 6 points for the first litre on the burning place. What is burning is
 /// known by what was sprayed at, and litres are an estimate.
@@ -54,9 +49,9 @@ void Robot::Impl::raiseAlarms(Stamp now) {
              storage_ok ? "" : mission_alarms.front().action, now);
   alarms.set("fsm.blocked", !fsm.blocked.empty(), AlarmLevel::Warning, fsm.blocked,
              "press STOP and restart the daemon", now);
-  alarms.set("battery.low",
-             preflightInputs(now).battery_v > 1.0 &&
-                 preflightInputs(now).battery_v < settings.preflight.battery_min_v,
+  const auto base_state = devices.base.state();
+  const double battery_v = base_state ? base_state->battery_v : 0.0;
+  alarms.set("battery.low", battery_v > 1.0 && battery_v < settings.preflight.battery_min_v,
              AlarmLevel::Caution, "Battery low", "finish and change the battery", now);
   const std::string not_recording = options.recorder ? options.recorder->status().problem : "";
   alarms.set("recording", !not_recording.empty(), AlarmLevel::Caution,
@@ -74,24 +69,6 @@ bool Robot::Impl::atStandstill() const {
     if (std::abs(wheel.drive_radps) > kRest_radps * 5) return false;
   }
   return pump_state->current_a[0] < kPumpRest_a && pump_state->current_a[1] < kPumpRest_a;
-}
-
-PreflightInputs Robot::Impl::preflightInputs(Stamp now) const {
-  PreflightInputs in;
-  const auto arm_state = devices.arm.state();
-  const auto base_state = devices.base.state();
-  in.devices_connected = devices.connected();
-  in.arm_age_s = ageOf(stampOf(arm_state), now);
-  in.base_age_s = ageOf(stampOf(base_state), now);
-  in.pumps_age_s = ageOf(stampOf(devices.pumps.state()), now);
-  in.lidar_age_s = ageOf(perception.lastScan(), now);
-  in.thermal_age_s = ageOf(perception.lastThermal(), now);
-  if (arm_state) in.arm_safety = arm_state->safety;
-  if (base_state) in.battery_v = base_state->battery_v;
-  if (last_heat && !last_heat->usable && !last_heat->blobs.empty()) in.thermal_usable = false;
-  in.pose_health = tracked.health;
-  in.storage_ok = storage_ok;
-  return in;
 }
 
 RobotStatus Robot::Impl::status(Stamp now) const {

@@ -39,7 +39,9 @@ std::string StopReceiver::onRequest(std::string_view bytes) {
     return h.client_id == request->client_id && h.nonce == request->nonce;
   });
   if (known == handled_.end()) {
-    latch_.set(fmt::format("operator {}", request->operator_name), clock_.now());
+    latch_.set(
+        request->operator_name.empty() ? std::string("an unnamed station") : request->operator_name,
+        clock_.now());
     const Stamp latched = clock_.now();
     stops_.push({request->client_id, request->operator_name, latched});
     handled_.push_back({request->client_id, request->nonce, latched});

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "common/model/command.h"
@@ -24,6 +25,9 @@ struct OperatorPeer {
   double rx_age_s = 0.0;       ///< age of last_heard, by the link's own clock
   double peer_rx_age_s = 0.0;  ///< how old our last message is as the peer sees it (a deaf station)
   double rtt_s = 0.0;          ///< 0 = not measured yet
+  /// By how much the station's idea of the robot's clock is off, as far as the round trip lets us
+  /// tell (within it: 0); > 0: its commands look older than they are. nullopt: no idea yet.
+  std::optional<double> clock_error_s{};
 };
 
 /// A STOP that arrived on the stop lane; the latch is set already.

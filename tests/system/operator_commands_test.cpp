@@ -1,9 +1,13 @@
 // A person at the station against the whole robot, in real time: modes, pause, forced transitions,
 // STOP, reset.
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include "common/config/resources.h"
 #include "robot/evaluation/live_system.h"
 #include "tests/support/paths.h"
 
@@ -125,6 +129,71 @@ TEST_F(OperatorCommands, AResetBringsTheRobotBackAndTheClockRunsOn) {
   });
   EXPECT_TRUE(back.has_value()) << back.error();
   EXPECT_GE(person_->view().status->mission_elapsed_s, elapsed_s);
+}
+
+/// The shipped robot without one line of its geometry, as a config of its own.
+std::string configWithoutLidarMounting(const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
+  const auto geometry = resourcePath("robot_model/bob.yaml");
+  const auto config = resourcePath("config/robot.yaml");
+  if (!geometry || !config) return {};
+  const auto copy = [](const std::string& from, const std::filesystem::path& to,
+                       const std::string& leave_out, const std::string& add) {
+    std::ifstream in(from);
+    std::ofstream out(to);
+    for (std::string line; std::getline(in, line);) {
+      if (line.rfind(leave_out, 0) != 0) out << line << "\n";
+    }
+    out << add;
+  };
+  copy(*geometry, folder / "bob.yaml", "X_flange_lidar", "");
+  copy(*config, folder / "robot.yaml",
+       "geometry:", "geometry: " + (folder / "bob.yaml").string() + "\n");
+  return (folder / "robot.yaml").string();
+}
+
+TEST(OperatorStart, AMissingTransformIsARowWithWhatToDoAndRefusesTheMissionByName) {
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("kiln-no-lidar-" + std::to_string(getpid()));
+  const std::string config = configWithoutLidarMounting(folder);
+  ASSERT_FALSE(config.empty());
+  auto live = LiveSystem::start(3, {"--config", config}, {}, kiln::binaryDir() + "/bin");
+  ASSERT_TRUE(live.has_value()) << live.error();
+  auto person = (*live)->connectOperator("Ann");
+  ASSERT_TRUE(person.has_value()) << person.error();
+  const auto row = [](const View& v, const std::string& name) -> const Check* {
+    if (!v.status) return nullptr;
+    for (const Check& check : v.status->checks) {
+      if (check.name == name) return &check;
+    }
+    return nullptr;
+  };
+  const auto told = (*person)->waitFor("the row", seconds(15), [&](const View& v) {
+    const Check* lidar = row(v, "LiDAR");
+    const Check* transforms = row(v, "Transforms");
+    return lidar && lidar->ok && transforms && transforms->detail == "flange -> lidar is missing";
+  });
+  ASSERT_TRUE(told.has_value()) << told.error();
+  const View view = (*person)->view();
+  EXPECT_EQ(view.status->word, StatusWord::NotReady);
+  EXPECT_FALSE(row(view, "Transforms")->ok);
+  EXPECT_NE(row(view, "Transforms")->action, "");
+  EXPECT_TRUE(row(view, "Pump current")->ok) << row(view, "Pump current")->detail;
+  EXPECT_TRUE(row(view, "Controller limits")->ok) << row(view, "Controller limits")->detail;
+  EXPECT_TRUE(row(view, "Clocks")->ok) << row(view, "Clocks")->detail;
+  ASSERT_TRUE((*person)->command(AcquireLease{}).has_value());
+  ASSERT_TRUE((*person)
+                  ->waitFor("the lease", seconds(3), [](const View& v) { return v.lease.mine; })
+                  .has_value());
+  EXPECT_FALSE((*person)->command(StartMission{}).has_value());
+  const auto refusal = (*person)->view().last_command;
+  ASSERT_TRUE(refusal.has_value());
+  EXPECT_EQ(refusal->code, "not_ready");
+  EXPECT_NE(refusal->reason.find("Transforms: flange -> lidar is missing"), std::string::npos)
+      << refusal->reason;
+  person->reset();
+  live->reset();
+  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

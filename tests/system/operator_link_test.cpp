@@ -40,6 +40,11 @@ TEST(OperatorLink, EstimatesTheClockOffsetOnTheSameMachineAsZero) {
   ASSERT_TRUE(connected(robot, op));
   const LinkReport link = op.link();
   EXPECT_LE(std::abs(link.clock_offset_s), link.clock_uncertainty_s + 1e-4);
+  // And the robot learns how well its clock is known there: before a start it looks at that.
+  ASSERT_TRUE(tickUntil(robot, [&] {
+    const auto peers = robot.link->operators();
+    return peers.size() == 1 && peers[0].clock_error_s && *peers[0].clock_error_s == 0.0;
+  }));
 }
 
 TEST(OperatorLink, DeniesTheSecondClientAndNamesTheHolder) {

@@ -10,6 +10,9 @@ namespace {
 constexpr int kRow_px = 22, kPassing_px = 19, kMark_px = 20, kGap_px = 4;
 
 QString text(const std::string& s) { return QString::fromStdString(s); }
+/// Needs the operator's eyes.
+bool noted(const Check& check) { return !check.ok || check.warn; }
+int rank(const Check& check) { return !check.ok ? 0 : check.warn ? 1 : 2; }
 }  // namespace
 
 PreflightList::PreflightList(const Ui& ui, QWidget* parent) : QWidget(parent), ui_(ui) {
@@ -21,12 +24,15 @@ PreflightList::PreflightList(const Ui& ui, QWidget* parent) : QWidget(parent), u
 
 void PreflightList::setChecks(const std::vector<Check>& checks) {
   checks_ = checks;
-  std::stable_partition(checks_.begin(), checks_.end(), [](const Check& c) { return !c.ok; });
+  std::stable_sort(checks_.begin(), checks_.end(),
+                   [](const Check& a, const Check& b) { return rank(a) < rank(b); });
   QStringList tip;
   for (const Check& check : checks_) {
     tip << QStringLiteral("%1 %2: %3")
-               .arg(check.ok ? QStringLiteral("✓") : QStringLiteral("!"), text(check.name),
-                    text(check.detail));
+               .arg(!noted(check) ? QStringLiteral("✓")
+                    : check.ok    ? QStringLiteral("▲")
+                                  : QStringLiteral("!"),
+                    text(check.name), text(check.detail));
   }
   setToolTip(tip.join(QLatin1Char('\n')));
   updateGeometry();
@@ -38,6 +44,11 @@ int PreflightList::failing() const {
       std::count_if(checks_.begin(), checks_.end(), [](const Check& c) { return !c.ok; }));
 }
 
+int PreflightList::warning() const {
+  return static_cast<int>(
+      std::count_if(checks_.begin(), checks_.end(), [](const Check& c) { return c.ok && c.warn; }));
+}
+
 int PreflightList::actionHeight(const Check& check, int width) const {
   if (check.action.empty()) return 0;
   return QFontMetrics(ui_.theme.font(TextRole::Small))
@@ -46,16 +57,16 @@ int PreflightList::actionHeight(const Check& check, int width) const {
       .height();
 }
 
-int PreflightList::failingHeight(int width) const {
+int PreflightList::notedHeight(int width) const {
   int height = 0;
   for (const Check& check : checks_) {
-    if (!check.ok) height += kRow_px + actionHeight(check, width) + kGap_px;
+    if (noted(check)) height += kRow_px + actionHeight(check, width) + kGap_px;
   }
   return height;
 }
 
 int PreflightList::heightForWidth(int width) const {
-  return failingHeight(width) + (total() - failing()) * kPassing_px;
+  return notedHeight(width) + (total() - failing() - warning()) * kPassing_px;
 }
 
 QSize PreflightList::sizeHint() const { return {260, heightForWidth(std::max(200, width()))}; }
@@ -64,13 +75,18 @@ QSize PreflightList::minimumSizeHint() const {
   return {120, std::min(heightForWidth(std::max(200, width())), kRow_px + kPassing_px)};
 }
 
-void PreflightList::paintFailing(QPainter& painter, const Check& check, int y, int width) const {
+void PreflightList::paintNoted(QPainter& painter, const Check& check, int y, int width) const {
   const Palette& p = ui_.theme.colors();
   const QPointF c(8, y + kRow_px / 2.0);
   painter.setPen(Qt::NoPen);
   painter.setBrush(p.caution);
-  painter.drawRoundedRect(QRectF(c.x() - 1.4, c.y() - 6, 2.8, 8), 1, 1);
-  painter.drawEllipse(c + QPointF(0, 5), 1.7, 1.7);
+  if (check.ok) {
+    painter.drawPolygon(QPolygonF()
+                        << c + QPointF(-5, 4.5) << c + QPointF(5, 4.5) << c + QPointF(0, -4.5));
+  } else {
+    painter.drawRoundedRect(QRectF(c.x() - 1.4, c.y() - 6, 2.8, 8), 1, 1);
+    painter.drawEllipse(c + QPointF(0, 5), 1.7, 1.7);
+  }
   const QFont strong = ui_.theme.font(TextRole::Strong), small = ui_.theme.font(TextRole::Small);
   const int name = QFontMetrics(strong).horizontalAdvance(text(check.name)) + 8;
   painter.setFont(strong);
@@ -115,10 +131,11 @@ void PreflightList::paintEvent(QPaintEvent*) {
   std::size_t i = 0;
   for (; i < checks_.size(); ++i) {
     const Check& check = checks_[i];
-    const int needs = check.ok ? kPassing_px : kRow_px + actionHeight(check, width()) + kGap_px;
+    const int needs =
+        !noted(check) ? kPassing_px : kRow_px + actionHeight(check, width()) + kGap_px;
     const bool last = i + 1 == checks_.size();
     if (y + needs > (last ? height() : bottom)) break;
-    check.ok ? paintPassing(painter, check, y) : paintFailing(painter, check, y, width());
+    noted(check) ? paintNoted(painter, check, y, width()) : paintPassing(painter, check, y);
     y += needs;
   }
   if (i == checks_.size()) return;

@@ -2,6 +2,7 @@
 
 #include <QGridLayout>
 #include <QVBoxLayout>
+#include <algorithm>
 
 namespace kiln::gui {
 
@@ -13,6 +14,10 @@ constexpr double kInputAmber_s = 0.5;
 constexpr double kInputRed_s = 2.0;
 constexpr double kInputShown_s = 0.005;
 
+bool warned(const RobotStatus& status) {
+  return std::any_of(status.checks.begin(), status.checks.end(),
+                     [](const Check& check) { return check.warn; });
+}
 bool needsRelease(ArmSafetyMode mode) { return mode == ArmSafetyMode::ProtectiveStop; }
 }  // namespace
 
@@ -61,17 +66,18 @@ std::vector<TickList::Row> StateCard::guardRows(const FsmStatus& fsm) const {
   std::vector<TickList::Row> rows;
   for (const GuardStatus& guard : fsm.guards) {
     TickList::Row row;
-    const bool never = guard.input_age_s < 0;
+    // A paused machine does not look at its guards: their age then says nothing of the inputs.
+    const bool never = guard.input_age_s < 0, aged = !never && !fsm.paused;
     row.mark = guard.met ? TickList::Mark::Met
                : never   ? TickList::Mark::Attention
                          : TickList::Mark::Waiting;
     row.name = QString::fromStdString(guard.name);
     row.detail = QString::fromStdString(guard.detail);
-    if (!never && guard.input_age_s >= kInputAmber_s) {
+    if (aged && guard.input_age_s >= kInputAmber_s) {
       row.level = guard.input_age_s >= kInputRed_s ? AgeLevel::Red : AgeLevel::Amber;
       row.mark = TickList::Mark::Attention;
     }
-    if (guard.input_age_s >= kInputShown_s) {
+    if (aged && guard.input_age_s >= kInputShown_s) {
       row.detail +=
           (row.detail.isEmpty() ? QString{} : QStringLiteral(" · ")) + ageText(guard.input_age_s);
     } else if (never && row.detail.isEmpty()) {
@@ -117,7 +123,10 @@ void StateCard::refreshNotice() {
   } else if (fsm && !fsm->blocked.empty()) {
     text = tr("<b>Mission blocked</b>: %1").arg(QString::fromStdString(fsm->blocked));
   } else if (fsm && fsm->paused && status && status->word == StatusWord::Paused) {
-    text = tr("<b>Paused.</b> The robot holds; the state's clock stands.");
+    QString why = QString::fromStdString(status->reason).toHtmlEscaped();
+    if (!why.isEmpty()) why[0] = why[0].toUpper();
+    text = tr("<b>%1.</b> The robot holds; the state's clock stands.")
+               .arg(why.isEmpty() ? tr("Paused") : why);
   }
   notice_->set(text, fault ? BannerKind::Fault : good ? BannerKind::Good : BannerKind::Caution);
   release_->setVisible(status && needsRelease(status->arm.safety));
@@ -129,19 +138,25 @@ void StateCard::refresh() {
   const FsmStatus* fsm = models_.fsm.status();
   const RobotStatus* status = models_.status.status();
   refreshNotice();
-  const bool not_ready = status && models_.status.word() == StatusWord::NotReady;
+  const bool idle = !fsm || fsm->state.empty();
+  const bool not_ready =
+      status && (models_.status.word() == StatusWord::NotReady ||
+                 (models_.status.word() == StatusWord::Ready && (idle || warned(*status))));
   if (fsm) refreshHeader(*fsm);
   preflight_->setVisible(not_ready);
   ticks_->setVisible(!not_ready);
   if (not_ready) {
     preflight_->setChecks(status->checks);
     setTitle(tr("Before a start"));
-    setInfo(preflight_->failing() == 0
-                ? tr("%1 checks hold").arg(preflight_->total())
-                : tr("%1 of %2 checks fail").arg(preflight_->failing()).arg(preflight_->total()));
+    const int failing = preflight_->failing(), warning = preflight_->warning();
+    setInfo(failing > 0   ? tr("%1 of %2 checks fail").arg(failing).arg(preflight_->total())
+            : warning > 0 ? tr("%1 checks hold, look at %2").arg(preflight_->total()).arg(warning)
+                          : tr("%1 checks hold").arg(preflight_->total()));
   }
   ticks_->setRows(fsm && !not_ready ? guardRows(*fsm) : std::vector<TickList::Row>{});
-  display_->set(fsm && !not_ready ? QString::fromStdString(fsm->display_text) : QString{});
+  // What a paused machine has to say stands in the notice, or is Teleop.
+  display_->set(fsm && !not_ready && !fsm->paused ? QString::fromStdString(fsm->display_text)
+                                                  : QString{});
   refreshExits();
 }
 
@@ -175,7 +190,8 @@ void StateCard::refreshExits() {
   }
   QString why;
   const bool may = models_.mayCommand(&why);
-  const bool checks = !preflight_->isHidden();  // they need the room
+  // The checks need the room; a recording has no use for exits.
+  const bool checks = !preflight_->isHidden() || models_.link.readOnly();
   const int shown = checks ? 0 : release_->isHidden() ? kMaxExits : kExitsBesideRelease;
   for (std::size_t i = 0; i < exits_.size(); ++i) {
     ActButton* button = exits_[i];

@@ -2,12 +2,14 @@
 
 #include <QFontMetrics>
 #include <QPainter>
+#include <algorithm>
 
 namespace kiln::gui {
 
 namespace {
 constexpr int kRow_px = 22;
 constexpr int kMark_px = 20;
+constexpr int kSlack_px = 4;  // a row may lose so much of its air
 }  // namespace
 
 TickList::TickList(const Ui& ui, QWidget* parent) : QWidget(parent), ui_(ui) {
@@ -56,7 +58,17 @@ void TickList::paintEvent(QPaintEvent*) {
   painter.setRenderHint(QPainter::Antialiasing);
   const QFont body = ui_.theme.font(TextRole::Body);
   const QFont small = ui_.theme.font(TextRole::Small);
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
+  // Whole rows only: what does not fit is counted.
+  const auto fits = static_cast<std::size_t>(std::max(1, (height() + kSlack_px) / kRow_px));
+  const std::size_t shown_rows = rows_.size() <= fits ? rows_.size() : fits - 1;
+  if (shown_rows < rows_.size()) {
+    painter.setFont(small);
+    painter.setPen(p.dim);
+    painter.drawText(QRect(kMark_px, static_cast<int>(shown_rows) * kRow_px, width(), kRow_px),
+                     Qt::AlignVCenter | Qt::AlignLeft,
+                     tr("and %1 more").arg(rows_.size() - shown_rows));
+  }
+  for (std::size_t i = 0; i < shown_rows; ++i) {
     const Row& row = rows_[i];
     const int y = static_cast<int>(i) * kRow_px;
     paintMark(painter, QRectF(0, y, kMark_px - 4, kRow_px), row.mark);

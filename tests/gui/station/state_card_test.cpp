@@ -55,7 +55,18 @@ TEST_F(StateCardTest, ShowsTheChecksWhileNotReady) {
   status.word = StatusWord::Ready;
   emit station.link.status(std::make_shared<const RobotStatus>(status));
   station.settle();
-  EXPECT_FALSE(card.preflight()->isVisible());
+  EXPECT_TRUE(card.preflight()->isHidden());
+}
+
+TEST_F(StateCardTest, AWarningIsShownThoughTheRobotIsReady) {
+  RobotStatus status = *station.models.status.status();
+  status.word = StatusWord::Ready;
+  status.checks = {{"LiDAR", true, "0.05 s old"}, {"Disk", true, "1.0 GB free", "make room", true}};
+  emit station.link.status(std::make_shared<const RobotStatus>(status));
+  station.settle();
+  ASSERT_TRUE(card.preflight()->isVisible());
+  EXPECT_EQ(card.preflight()->failing(), 0);
+  EXPECT_EQ(card.preflight()->warning(), 1);
 }
 
 TEST_F(StateCardTest, OffersTheReleaseOfAProtectiveStopOnlyInOne) {

@@ -13,7 +13,7 @@ class CheckPlace
     : public FireState<CheckPlace, To<ArmSearch, PlaceRefused>, OnTimeout<PlaceRefused>> {
  public:
   static constexpr const char* kGroup = kSearchFire;
-  static constexpr const char* kLabel = "Stands the place where it should?";
+  static constexpr const char* kLabel = "Place as configured?";
   static constexpr const char* kDoc = "Looks for the fire box in the live cloud";
   static constexpr const char* kConsequence =
       "The robot compares the configured place with the live cloud, then unfolds its arm or asks";

@@ -79,7 +79,8 @@ TEST(Messages, RobotStatusKeepsEveryField) {
   s.seq = 9;
   s.mode = Mode::Teleop;
   s.word = StatusWord::Teleop;
-  s.checks = {{"lidar", false, "no scan", "check its cable"}};
+  s.checks = {{"lidar", false, "no scan", "check its cable"},
+              {"disk", true, "1 GB", "make room", true}};
   s.lease = {"id", "anna", 4, 1.5, "id2", "ben", 8.0};
   s.stop = {true, "operator ben", at(2.0), true};
   s.X_map_base = {1.0, 2.0, 0.5};
@@ -101,6 +102,8 @@ TEST(Messages, RobotStatusKeepsEveryField) {
   EXPECT_EQ(encode(same), encode(s));
   EXPECT_EQ(back->lease.requested_by_name, "ben");
   EXPECT_EQ(back->checks.at(0).action, "check its cable");
+  EXPECT_FALSE(back->checks.at(0).warn);
+  EXPECT_TRUE(back->checks.at(1).warn);
   EXPECT_EQ(back->water.tank_l_est, s.water.tank_l_est);
 }
 

@@ -1,5 +1,8 @@
 #include "robot/app/preflight.h"
 
+#include <cmath>
+#include <limits>
+
 #include <gtest/gtest.h>
 
 namespace kiln {
@@ -12,13 +15,33 @@ PreflightInputs healthy() {
   in.lidar_age_s = in.thermal_age_s = 0.1;
   in.pose_health = PoseHealth::Good;
   in.battery_v = 29.0;
+  in.tree_edges = 10;
+  in.clocks = {{"the LiDAR", 0.0}, {"Ann's station", 0.004}};
+  in.pumps = PumpsState{};
+  in.limits = {{"base.max_speed_mps", 1.0, 4.0, "m/s", "hub motors"}};
+  in.map_fit = MapFit{0.95, 0.011};
+  in.disk_free_gb = 40.0;
+  in.recording_needs_gb = 2.0;
   return in;
+}
+
+Check rowOf(const PreflightInputs& in, const std::string& name) {
+  for (const Check& check : preflight(in, {})) {
+    if (check.name == name) return check;
+  }
+  ADD_FAILURE() << "no row '" << name << "'";
+  return {};
 }
 
 TEST(Preflight, PassesAHealthyRobot) {
   const auto checks = preflight(healthy(), {});
   EXPECT_TRUE(allOk(checks)) << firstFailure(checks);
   EXPECT_EQ(firstFailure(checks), "");
+  for (const Check& check : checks) {
+    EXPECT_FALSE(check.warn) << check.name;
+    EXPECT_NE(check.detail, "") << check.name << ": the measured value";
+    EXPECT_EQ(check.action, "") << check.name << ": nothing to do";
+  }
 }
 
 TEST(Preflight, NamesEachFailureWithWhatToDo) {
@@ -26,16 +49,30 @@ TEST(Preflight, NamesEachFailureWithWhatToDo) {
     std::string name;
     std::function<void(PreflightInputs&)> breakIt;
   };
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   const std::vector<Case> cases = {
       {"Devices", [](auto& in) { in.devices_connected = false; }},
       {"Arm", [](auto& in) { in.arm_age_s.reset(); }},
       {"Arm safety", [](auto& in) { in.arm_safety = ArmSafetyMode::ProtectiveStop; }},
       {"Base", [](auto& in) { in.base_age_s = 1.0; }},
       {"Pumps", [](auto& in) { in.pumps_age_s = 1.0; }},
+      {"Pump current", [](auto& in) { in.pumps.reset(); }},
+      {"Pump current", [](auto& in) { in.pumps->current_a[1] = 3.0; }},
+      {"Pump current", [&](auto& in) { in.pumps->current_a[0] = kNaN; }},
+      {"Pump current", [](auto& in) { in.pumps->heartbeat_lost = true; }},
       {"LiDAR", [](auto& in) { in.lidar_age_s = 2.1; }},
       {"Thermal camera", [](auto& in) { in.thermal_age_s = 3.0; }},
+      {"Thermal camera", [](auto& in) { in.thermal_usable = false; }},
+      {"Transforms", [](auto& in) { in.missing_edges = {"flange -> lidar"}; }},
+      {"Clocks", [](auto& in) { in.clocks[1].error_s = -2.0; }},
+      {"Clocks", [&](auto& in) { in.clocks[0].error_s = kNaN; }},
+      {"Controller limits", [](auto& in) { in.limits[0].configured = 5.0; }},
+      {"Controller limits", [](auto& in) { in.reported_beyond_limit = "joint 3 stands at 359"; }},
       {"Position", [](auto& in) { in.pose_health = PoseHealth::Degraded; }},
+      {"Map against scan", [](auto& in) { in.map_fit.reset(); }},
+      {"Map against scan", [](auto& in) { in.map_fit->inlier_fraction = 0.31; }},
       {"Battery", [](auto& in) { in.battery_v = 20.0; }},
+      {"Disk", [](auto& in) { in.disk_free_gb = 0.1; }},
       {"Storage", [](auto& in) { in.storage_ok = false; }},
   };
   for (const Case& c : cases) {
@@ -43,8 +80,54 @@ TEST(Preflight, NamesEachFailureWithWhatToDo) {
     c.breakIt(in);
     const auto checks = preflight(in, {});
     EXPECT_FALSE(allOk(checks)) << c.name;
-    EXPECT_EQ(firstFailure(checks).rfind(c.name + ": ", 0), 0U) << firstFailure(checks);
+    const Check row = rowOf(in, c.name);
+    EXPECT_FALSE(row.ok) << c.name;
+    EXPECT_NE(row.detail, "") << c.name;
+    EXPECT_NE(row.action, "") << c.name << ": what to do";
+    EXPECT_EQ(firstFailure(checks), c.name + ": " + row.detail + "; " + row.action);
   }
+}
+
+TEST(Preflight, WarnsOfWhatDoesNotForbidAStart) {
+  struct Case {
+    std::string name;
+    std::function<void(PreflightInputs&)> doubt;
+  };
+  const std::vector<Case> cases = {
+      {"Arm safety", [](auto& in) { in.arm_safety = ArmSafetyMode::Reduced; }},
+      {"Clocks", [](auto& in) { in.clocks[1].error_s.reset(); }},
+      {"Controller limits",
+       [](auto& in) {
+         in.limits = {{"teleop.max_speed_mps", 2, 1, "m/s", "base", false, true}};
+       }},
+      {"Map against scan", [](auto& in) { in.map_fit->inlier_fraction = 0.45; }},
+      {"Map against scan", [](auto& in) { in.map_fit->rms_m = 0.08; }},
+      {"Map against scan", [](auto& in) { in.map_in_use = false; }},
+      {"Disk", [](auto& in) { in.disk_free_gb = 1.0; }},
+      {"Disk", [](auto& in) { in.disk_free_gb.reset(); }},
+  };
+  for (const Case& c : cases) {
+    PreflightInputs in = healthy();
+    c.doubt(in);
+    const Check row = rowOf(in, c.name);
+    EXPECT_TRUE(row.ok && row.warn) << c.name << ": " << row.detail;
+    EXPECT_NE(row.action, "") << c.name;
+    EXPECT_TRUE(allOk(preflight(in, {}))) << c.name;
+  }
+}
+
+TEST(Preflight, SaysWhatWasMeasured) {
+  PreflightInputs in = healthy();
+  in.missing_edges = {"flange -> lidar", "flange -> nozzle"};
+  EXPECT_EQ(rowOf(in, "Transforms").detail, "flange -> lidar, flange -> nozzle are missing");
+  in.clocks[1].error_s = -2.0;
+  EXPECT_EQ(rowOf(in, "Clocks").detail, "Ann's station is 2000 ms ahead");
+  in.pumps->current_a = {3.2, 0.0};
+  EXPECT_EQ(rowOf(in, "Pump current").detail, "left pump draws 3.2 A at rest");
+  in.pumps->duty = {1.0, 0.0};  // sprayed by hand
+  EXPECT_EQ(rowOf(in, "Pump current").detail, "3.2 and 0.0 A, spraying");
+  in.map_fit = MapFit{0.31, 0.02};
+  EXPECT_EQ(rowOf(in, "Map against scan").detail, "31 % fits, 20 mm rms");
 }
 
 }  // namespace
