@@ -36,7 +36,9 @@ struct ReplayLink::Impl {
   explicit Impl(RunReplay r) : replay(std::move(r)) {}
   void attach(ReplayLink& owner);
   void run(std::stop_token stop);
-  void obey(const Wish& wish);
+  /// @return the wish was a jump to another time.
+  [[nodiscard]] bool obey(const Wish& wish);
+  void tellJump(const std::stop_token& stop);
   void poll();
   void report();
   void want(const std::function<void(Wish&)>& change) {
@@ -53,7 +55,8 @@ struct ReplayLink::Impl {
   Playback now;
   std::mutex mutex;
   std::condition_variable_any wake;
-  Wish wish;  // guarded by mutex
+  Wish wish;               // guarded by mutex
+  bool jump_told = false;  // guarded by mutex
   std::jthread worker;
 };
 
@@ -146,7 +149,7 @@ void ReplayLink::Impl::run(std::stop_token stop) {
       });
       if (asked) wanted = std::exchange(wish, {});
     }
-    obey(wanted);
+    if (obey(wanted)) tellJump(stop);
     poll();
     const bool asked = wanted.playing || wanted.speed || wanted.seek || wanted.step_s != 0.0;
     if (asked || polls % kReportPolls == 0) report();
@@ -160,7 +163,7 @@ void ReplayLink::Impl::run(std::stop_token stop) {
   }
 }
 
-void ReplayLink::Impl::obey(const Wish& wanted) {
+bool ReplayLink::Impl::obey(const Wish& wanted) {
   Player& player = replay.player();
   if (wanted.speed) player.setSpeed(*wanted.speed);
   const bool back = (wanted.seek && *wanted.seek < player.position()) || wanted.step_s < 0.0;
@@ -170,11 +173,25 @@ void ReplayLink::Impl::obey(const Wish& wanted) {
     if (*wanted.playing && player.ended()) player.seek(player.start());
     *wanted.playing ? player.play() : player.pause();
   }
-  if (wanted.seek || back) {
-    // What the models remember of the time line is of another time now.
-    QMetaObject::invokeMethod(
-        link, [owner = link] { emit owner->restarted(); }, Qt::QueuedConnection);
-  }
+  return wanted.seek || back;
+}
+
+/// What the models remember of the time line is of another time now. They forget it before they get
+/// anything of the new one: a message that overtook the word of the jump would be forgotten with
+/// the rest, and while the recording stands no other follows.
+void ReplayLink::Impl::tellJump(const std::stop_token& stop) {
+  std::unique_lock lock(mutex);
+  jump_told = false;
+  QMetaObject::invokeMethod(
+      link,
+      [this] {
+        emit link->restarted();
+        const std::lock_guard told(mutex);
+        jump_told = true;
+        wake.notify_all();
+      },
+      Qt::QueuedConnection);
+  wake.wait(lock, stop, [this] { return jump_told; });
 }
 
 void ReplayLink::Impl::poll() {

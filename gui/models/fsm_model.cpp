@@ -21,6 +21,7 @@ FsmModel::FsmModel(Link& link, QObject* parent) : Model(link, AgeLimits{}, paren
   });
   connect(&link, &Link::restarted, this, [this] {
     visits_.clear();
+    paused_ = Duration::zero();
     recount();
     touch();
   });
@@ -58,8 +59,10 @@ double FsmModel::timeInStateS() const {
   if (!status_) return 0.0;
   // Once the mission has ended or the link is silent the clock of the state must not run on by
   // itself.
-  const double since_s = toSeconds(status_->stamp - status_->entered);
-  const bool running = status_->running && !status_->terminal && ageLevel() == AgeLevel::Fresh;
+  if (status_->state.empty()) return 0.0;
+  const double since_s = toSeconds(status_->stamp - status_->entered - paused_);
+  const bool running =
+      status_->running && !status_->paused && !status_->terminal && ageLevel() == AgeLevel::Fresh;
   return std::max(0.0, since_s + (running ? std::max(0.0, ageS()) : 0.0));
 }
 
@@ -79,6 +82,11 @@ int FsmModel::recency(const QString& name) const {
 void FsmModel::onStatus(std::shared_ptr<const FsmStatus> status) {
   if (status_ && status_->mission_uuid != status->mission_uuid) visits_.clear();
   const bool moved = !status_ || status_->step != status->step || status_->state != status->state;
+  if (moved) {
+    paused_ = Duration::zero();
+  } else if (status_->paused && status->stamp > status_->stamp) {
+    paused_ += status->stamp - status_->stamp;
+  }
   status_ = std::move(status);
   for (const FsmHistoryEntry& entry : status_->history) merge(entry);
   if (!status_->state.empty() && (visits_.empty() || visits_.back().step < status_->step)) {

@@ -59,6 +59,7 @@ class FsmModel : public Model {
 
   std::shared_ptr<const FsmInfo> info_;
   std::shared_ptr<const FsmStatus> status_;
+  Duration paused_{};  ///< of the time in the present state, as far as this station has seen it
   std::vector<Visit> visits_;
   QHash<QString, StateRecord> records_;
   QHash<QString, int> taken_;

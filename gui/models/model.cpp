@@ -1,11 +1,25 @@
 #include "gui/models/model.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace kiln::gui {
 
 namespace {
 constexpr double kPeriodSmoothing = 0.2;
+}
+
+Model::Model(Link& link, AgeLimits limits, QObject* parent)
+    : QObject(parent), link_(link), limits_(limits) {
+  // In a recording that jumps, the gap says nothing of age or rate; the value of the new time is on
+  // its way.
+  connect(&link_, &Link::restarted, this, [this] {
+    period_s_ = 0.0;
+    if (!received_) return;
+    received_ = stationNow();
+    stamp_ = link_.robotNow().value_or(stamp_);
+    jumped_ = true;
+  });
 }
 
 double Model::ageS() const {
@@ -24,7 +38,7 @@ double Model::rateHz() const {
 
 void Model::arrived(Stamp stamp) {
   const Stamp now = stationNow();
-  if (received_) {
+  if (received_ && !std::exchange(jumped_, false)) {
     const double gap_s = toSeconds(now - *received_);
     period_s_ = period_s_ <= 0 ? gap_s : period_s_ + kPeriodSmoothing * (gap_s - period_s_);
   }

@@ -17,8 +17,7 @@ namespace kiln::gui {
 class Model : public QObject {
   Q_OBJECT
  public:
-  explicit Model(Link& link, AgeLimits limits = {}, QObject* parent = nullptr)
-      : QObject(parent), link_(link), limits_(limits) {}
+  explicit Model(Link& link, AgeLimits limits = {}, QObject* parent = nullptr);
 
   [[nodiscard]] bool hasData() const { return received_.has_value(); }
   /// Robot time of the newest value; Stamp{} before the first.
@@ -51,6 +50,7 @@ class Model : public QObject {
   Stamp stamp_;
   std::optional<Stamp> received_;  ///< station time
   double period_s_ = 0.0;          ///< smoothed
+  bool jumped_ = false;            ///< nothing has arrived since a jump in time
   bool dirty_ = false;
 };
 

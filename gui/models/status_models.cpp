@@ -1,5 +1,7 @@
 #include "gui/models/status_models.h"
 
+#include <algorithm>
+
 namespace kiln::gui {
 
 StatusModel::StatusModel(Link& link, QObject* parent) : Model(link, AgeLimits{}, parent) {
@@ -41,13 +43,27 @@ MacroModel::MacroModel(Link& link, QObject* parent) : Model(link, kSlowAge, pare
   });
 }
 
+namespace {
+/// A recording tells the newest lines before the place that it jumps to once more.
+bool known(const std::deque<LogLine>& lines, const LogLine& line) {
+  if (lines.empty() || line.stamp > lines.back().stamp) return false;
+  return std::any_of(lines.begin(), lines.end(), [&](const LogLine& old) {
+    return old.stamp == line.stamp && old.logger == line.logger && old.text == line.text;
+  });
+}
+}  // namespace
+
 LogModel::LogModel(Link& link, QObject* parent) : Model(link, kSlowAge, parent) {
   connect(&link, &Link::restarted, this, [this] {
-    lines_.clear();
+    // A jump back: what was logged later has not happened yet.
+    const auto now = this->link().robotNow();
+    if (now) std::erase_if(lines_, [&](const LogLine& line) { return line.stamp > *now; });
     touch();
   });
   connect(&link, &Link::log, this, [this](const std::vector<LogLine>& lines) {
-    for (const LogLine& line : lines) add(line);
+    for (const LogLine& line : lines) {
+      if (!known(lines_, line)) add(line);
+    }
   });
 }
 

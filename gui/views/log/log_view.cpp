@@ -19,6 +19,7 @@ LogView::LogView(const Ui& ui, StationModels& models, QWidget* parent)
   setMaximumBlockCount(static_cast<int>(LogModel::kCapacity));
   setFocusPolicy(Qt::ClickFocus);
   connect(&models_.log, &Model::changed, this, &LogView::append);
+  connect(&models_.link, &Link::restarted, this, &LogView::rebuild);
   connect(&ui_.theme, &Theme::changed, this, &LogView::rebuild);
   rebuild();
 }

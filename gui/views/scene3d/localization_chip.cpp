@@ -55,7 +55,8 @@ QSize LocalizationChip::sizeHint() const {
   const int text =
       std::max(QFontMetrics(ui_.theme.font(TextRole::Strong)).horizontalAdvance(title()),
                QFontMetrics(ui_.theme.font(TextRole::Small)).horizontalAdvance(detail()));
-  const int width = std::min(kWidest_px, text + 2 * kPadding_px + kMark_px + 2);
+  const int widest = widest_px_ > 0 ? std::min(widest_px_, kWidest_px) : kWidest_px;
+  const int width = std::min(widest, text + 2 * kPadding_px + kMark_px + 2);
   return {width, detailArea(width).bottom() + 5};
 }
 
@@ -64,6 +65,13 @@ QRect LocalizationChip::detailArea(int width) const {
   const QRect needs = QFontMetrics(ui_.theme.font(TextRole::Small))
                           .boundingRect(QRect(0, 0, room, 1000), Qt::TextWordWrap, detail());
   return {x, kTitleBottom_px, room, std::min(needs.height(), kMostDetail_px)};
+}
+
+void LocalizationChip::setWidest(int widest_px) {
+  if (widest_px == widest_px_) return;
+  widest_px_ = widest_px;
+  resize(sizeHint());  // the caller arranges it
+  update();
 }
 
 void LocalizationChip::refresh() {

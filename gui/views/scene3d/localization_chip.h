@@ -17,6 +17,8 @@ class LocalizationChip : public QWidget {
   [[nodiscard]] QString detail() const;  ///< "indoor map · 2 cm off the path", or why not good
   [[nodiscard]] QSize sizeHint() const override;
   void refresh();
+  /// No wider than this, 0: as it likes; texts are shortened.
+  void setWidest(int widest_px);
 
  signals:
   void resized();
@@ -31,6 +33,7 @@ class LocalizationChip : public QWidget {
   void paintMark(QPainter& painter, const QPointF& center, const QColor& color) const;
   Ui ui_;
   const LocalizationModel& model_;
+  int widest_px_ = 0;
 };
 
 }  // namespace kiln::gui

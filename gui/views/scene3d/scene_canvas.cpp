@@ -10,6 +10,10 @@
 
 namespace kiln::gui {
 
+namespace {
+constexpr double kBehind_s = 1.0;  ///< a picture under way for longer is told of
+}
+
 SceneCanvas::SceneCanvas(const Ui& ui, const RobotShape& shape, Config config, bool open_gl,
                          QWidget* parent)
     : QWidget(parent), ui_(ui), shape_(shape), config_(config) {
@@ -39,6 +43,13 @@ void SceneCanvas::show(const SceneSnapshot& snapshot) {
   }
   if (snapshot_.robot_known) camera_.robotAt(robot());
   want();
+  if (behindS() > 0.0) update();
+}
+
+double SceneCanvas::behindS() const {
+  if (!under_way_ || !since_request_.isValid()) return 0.0;
+  const double s = 1e-3 * static_cast<double>(since_request_.elapsed());
+  return s < kBehind_s ? 0.0 : s;
 }
 
 void SceneCanvas::setCameraMode(OrbitCamera::Mode mode) {
@@ -92,6 +103,8 @@ void SceneCanvas::drawNow() {
 void SceneCanvas::accept(const SceneFrame& frame) {
   under_way_ = false;
   frame_ = frame;
+  ++pictures_;
+  render_ms_ += frame.render_ms;
   frame_.image.setDevicePixelRatio(devicePixelRatioF());
   update();
   if (wanted_) want();
@@ -112,6 +125,11 @@ void SceneCanvas::paintEvent(QPaintEvent*) {
   paintSceneOverlay(painter, snapshot_, intent_, render_ ? frame_.camera : camera_, colors, size());
   painter.setFont(ui_.theme.font(TextRole::Body));
   paintSceneLabels(painter, snapshot_, render_ ? frame_.camera : camera_, colors, size());
+  if (const double behind_s = behindS(); behind_s > 0.0) {
+    painter.setPen(ui_.theme.colors().caution);
+    painter.drawText(rect().adjusted(8, 8, -8, -8), Qt::AlignBottom | Qt::AlignHCenter,
+                     tr("the 3D view is %1 s behind").arg(behind_s, 0, 'f', 1));
+  }
   emit drawn();
 }
 

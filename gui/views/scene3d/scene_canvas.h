@@ -20,7 +20,7 @@ class SceneCanvas : public QWidget {
  public:
   struct Config {
     SceneRenderer::Config renderer;
-    double max_fps = 15.0;
+    double max_fps = 16.0;
   };
   /// @param open_gl  openGlAvailable(), or false to force the top view.
   SceneCanvas(const Ui& ui, const RobotShape& shape, Config config, bool open_gl,
@@ -34,6 +34,11 @@ class SceneCanvas : public QWidget {
   /// While on, a press with the left button points at the ground instead of turning the camera.
   void setPointing(bool pointing);
   [[nodiscard]] const OrbitCamera& camera() const { return camera_; }
+  /// 3D pictures shown since the start, and the mean time that one took to draw.
+  [[nodiscard]] std::uint64_t pictures() const { return pictures_; }
+  [[nodiscard]] double meanRenderMs() const {
+    return pictures_ > 0 ? render_ms_ / static_cast<double>(pictures_) : 0.0;
+  }
   [[nodiscard]] bool usesOpenGl() const { return render_ != nullptr; }
   [[nodiscard]] double lastRenderMs() const { return frame_.render_ms; }
   [[nodiscard]] QSize minimumSizeHint() const override { return {240, 160}; }
@@ -55,6 +60,8 @@ class SceneCanvas : public QWidget {
 
  private:
   void want();
+  /// How long the picture asked for has been under way; 0 while it is in time.
+  [[nodiscard]] double behindS() const;
   void drawNow();
   void accept(const SceneFrame& frame);
   [[nodiscard]] std::optional<Eigen::Vector2d> groundAt(const QPoint& pixel) const;
@@ -71,6 +78,8 @@ class SceneCanvas : public QWidget {
   SceneFrame frame_;
   QTimer pace_;
   QElapsedTimer since_request_;
+  std::uint64_t pictures_ = 0;
+  double render_ms_ = 0.0;  ///< of all of them
   bool under_way_ = false, wanted_ = false, placed_ = false;
   QPoint last_mouse_;
 };

@@ -58,6 +58,7 @@ void SceneState::setStatus(const RobotStatus& status) {
   while (poses_.size() > config_.pose_history) poses_.pop_front();
   touch(SceneLayer::Robot);
   extendTrail(status);
+  if (cloud_waits_) setCloud(snapshot_.cloud);
 }
 
 void SceneState::extendTrail(const RobotStatus& status) {
@@ -93,6 +94,7 @@ const SceneState::PoseAt* SceneState::poseNear(Stamp stamp) const {
 void SceneState::setCloud(PointCloudPtr cloud) {
   if (!cloud) return;
   const PoseAt* at = poseNear(cloud->stamp);
+  cloud_waits_ = !at && cloud->frame != frames::kMap;
   Eigen::Isometry3d X_map_cloud = Eigen::Isometry3d::Identity();
   if (cloud->frame == frames::kBase || cloud->frame == frames::kLidar) {
     // Without a robot pose the scan is still worth seeing, round the origin (sensor files have no

@@ -107,6 +107,7 @@ class SceneState {
   SceneSnapshot snapshot_;
   std::deque<PoseAt> poses_;
   std::string cloud_refusal_;
+  bool cloud_waits_ = false;  ///< drawn round the origin until a pose is known
   std::string submap_name_;
   int resets_ = 0;
 };

@@ -69,6 +69,7 @@ SceneTile::SceneTile(const Ui& ui, StationModels& models, RobotGeometry geometry
   connect(place_panel_, &PlacePanel::refreshed, this, [this] {
     watchPlace();
     takeIntent();
+    arrange();
   });
   connect(chip_, &LocalizationChip::resized, this, &SceneTile::arrange);
   connect(place_panel_, &PlacePanel::resized, this, &SceneTile::arrange);
@@ -152,12 +153,19 @@ void SceneTile::refreshPoseButton() {
 
 void SceneTile::arrange() {
   const QSize area = canvas_->size();
-  chip_->move(area.width() - chip_->width() - kPanelOffset_px, kPanelOffset_px);
+  // In a low tile the card takes the whole right side, and the chip goes to the left of it.
+  const int beside = area.width() - place_panel_->width() - 3 * kPanelOffset_px;
+  chip_->setWidest(0);
+  const bool low = !place_panel_->isHidden() &&
+                   area.height() < chip_->height() + place_panel_->height() + 3 * kPanelOffset_px;
+  if (low) chip_->setWidest(beside);
+  chip_->move(low ? kPanelOffset_px : area.width() - chip_->width() - kPanelOffset_px,
+              kPanelOffset_px);
   pose_panel_->move(std::max(kPanelOffset_px, (area.width() - pose_panel_->width()) / 2),
                     area.height() - pose_panel_->height() - kPanelOffset_px);
-  place_panel_->move(area.width() - place_panel_->width() - kPanelOffset_px,
-                     std::max(chip_->geometry().bottom() + kPanelOffset_px,
-                              area.height() - place_panel_->height() - kPanelOffset_px));
+  place_panel_->move(
+      area.width() - place_panel_->width() - kPanelOffset_px,
+      std::max(kPanelOffset_px, area.height() - place_panel_->height() - kPanelOffset_px));
 }
 
 bool SceneTile::eventFilter(QObject* watched, QEvent* event) {

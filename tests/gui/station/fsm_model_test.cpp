@@ -34,6 +34,22 @@ TEST(FsmModel, TheClockOfAStateStandsWhileTheLinkIsSilent) {
   EXPECT_LT(station.models.fsm.timeInStateS(), before + 2.0);
 }
 
+TEST(FsmModel, TheClockOfAStateStandsWhileTheMissionIsPaused) {
+  SteppedStation station;
+  station.takeLease();
+  station.link.robot().startMission();
+  station.pass(4.0);
+  station.models.commands.send(Pause{}, "pause");
+  station.pass(1.0);
+  const double paused = station.models.fsm.timeInStateS();
+  station.pass(30.0);
+  EXPECT_NEAR(station.models.fsm.timeInStateS(), paused, 0.3);
+  station.models.commands.send(Resume{}, "resume");
+  station.pass(2.0);
+  EXPECT_GT(station.models.fsm.timeInStateS(), paused + 1.0);
+  EXPECT_LT(station.models.fsm.timeInStateS(), paused + 4.0);
+}
+
 TEST(FsmModel, MarksForcedTransitions) {
   SteppedStation station;
   station.takeLease();

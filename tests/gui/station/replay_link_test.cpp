@@ -10,6 +10,7 @@
 #include "common/record/schema.h"
 #include "common/wire/telemetry.h"
 #include "gui/models/station_models.h"
+#include "gui/views/log/log_view.h"
 
 namespace kiln::gui {
 namespace {
@@ -31,12 +32,21 @@ class ReplayLinkTest : public testing::Test {
     const auto channel = (*writer)->addChannel(run::topicName(Topic::RobotStatus),
                                                *protobufSchema("kiln.v1.RobotStatus"));
     EXPECT_TRUE(channel) << channel.error();
+    const auto log =
+        (*writer)->addChannel(run::topicName(Topic::Log), *protobufSchema("kiln.v1.LogBatch"));
+    EXPECT_TRUE(log) << log.error();
     for (int i = 0; i < kStatuses; ++i) {
+      if (i % 100 == 50) {  // at 5 s, 15 s, ...
+        const Stamp stamp = at(kStart_s + 0.1 * i);
+        const LogBatch batch{{{stamp, 2, "mission", std::to_string(i)}}};
+        EXPECT_TRUE((*writer)->write(*log, stamp, stamp, wire::encode(batch)));
+      }
       RobotStatus status;
       status.stamp = at(kStart_s + 0.1 * i);
       status.seq = static_cast<std::uint64_t>(i);
       status.environment = Environment::Sim;
       status.word = StatusWord::Auto;
+      status.X_map_base.x_m = 0.05 * i;
       EXPECT_TRUE((*writer)->write(*channel, status.stamp, status.stamp, wire::encode(status)));
     }
     EXPECT_TRUE((*writer)->close());
@@ -80,6 +90,40 @@ TEST_F(ReplayLinkTest, AJumpShowsThatMomentAndNothingGrowsOldWhilePaused) {
   EXPECT_FALSE(link->playback().playing);
   link->step(-0.2);
   ASSERT_TRUE(QTest::qWaitFor([&] { return seq() == 99; }, kPatience_ms)) << seq();
+}
+
+TEST_F(ReplayLinkTest, AfterAJumpBackTheLogHoldsNothingOfLater) {
+  Theme theme;
+  const LogView view({theme, link->clock()}, *models);
+  link->open();
+  link->setSpeed(ReplayLink::kFastest);
+  const auto lines = [&] { return view.toPlainText().count("mission:"); };
+  ASSERT_TRUE(QTest::qWaitFor([&] { return lines() >= 2; }, kPatience_ms)) << "15 s are over";
+  link->setPlaying(false);
+  link->seek(at(kStart_s + 10.0));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return seq() == 100 && lines() == 1; }, kPatience_ms))
+      << view.toPlainText().toStdString();
+  EXPECT_TRUE(view.toPlainText().contains("mission: 50")) << view.toPlainText().toStdString();
+  for (const LogLine& line : models->log.lines()) EXPECT_LE(line.stamp, at(kStart_s + 10.0));
+}
+
+// The models forget at a jump. What comes of the new time must come after that, or it is forgotten
+// as well, and in a recording that stands nothing follows.
+TEST_F(ReplayLinkTest, WhatComesAfterAJumpIsNotForgottenWithIt) {
+  link->open();
+  link->setPlaying(false);
+  for (int i = 0; i < 60; ++i) {
+    const int to = (i * 211) % 600;
+    link->seek(at(kStart_s + 0.1 * to));
+    ASSERT_TRUE(QTest::qWaitFor(
+        [&] {
+          return static_cast<int>(seq()) == to && !models->scene.driven().empty() &&
+                 std::abs(models->scene.driven().back().x_m - 0.05 * to) < 1e-6;
+        },
+        kPatience_ms))
+        << "jump " << i << " to " << to;
+    EXPECT_EQ(models->status.ageLevel(), AgeLevel::Fresh);
+  }
 }
 
 TEST_F(ReplayLinkTest, TheSpeedIsClampedAndTheEndIsTold) {

@@ -46,6 +46,18 @@ TEST(SceneState, PlacesACloudWhereTheRobotWasWhenItWasTaken) {
   EXPECT_DOUBLE_EQ(f.state.snapshot().X_map_cloud.translation().x(), 0.0);
 }
 
+// In a recording that stands no second cloud comes to replace a misplaced one.
+TEST(SceneState, ACloudThatComesBeforeThePoseMovesToTheRobotWithIt) {
+  Fixture f;
+  f.state.setStatus(statusAt(1.0, 5.0));
+  f.state.restart();
+  f.state.setCloud(onePoint("base", 9.0));
+  f.state.setStatus(statusAt(9.05, 8.0));
+  EXPECT_DOUBLE_EQ(f.state.snapshot().X_map_cloud.translation().x(), 8.0);
+  f.state.setStatus(statusAt(9.15, 8.5));
+  EXPECT_DOUBLE_EQ(f.state.snapshot().X_map_cloud.translation().x(), 8.0) << "placed once";
+}
+
 TEST(SceneState, PutsALidarCloudAtTheHeadOfTheArm) {
   Fixture f;
   RobotStatus s = statusAt(1.0, 2.0);
