@@ -18,6 +18,7 @@
 #include "gui/link/replay_link.h"
 #include "gui/link/robot_link.h"
 #include "gui/views/scene3d/scene_renderer.h"
+#include "gui/views/scene3d/scene_tile.h"
 
 namespace kiln::gui {
 namespace {
@@ -146,10 +147,17 @@ int run(int argc, char** argv, const StationOptions& options) {
   QTimer signal_timer;
   quitOnSignal(signal_timer);
   link->open();
+  const Stamp opened = steady.now();
   const int code = QApplication::exec();
   link->close();
   const bool pictures_written = !screenshots || screenshots->finish();
-  if (options.stall_report) std::cout << stalls.report().toStdString() << std::endl;
+  if (options.stall_report) {
+    const SceneCanvas& scene = window.sceneTile()->canvas();
+    const double seconds = toSeconds(steady.now() - opened);
+    std::cout << stalls.report().toStdString() << "\nscene: " << scene.pictures() << " pictures, "
+              << static_cast<double>(scene.pictures()) / seconds << " a second, "
+              << scene.meanRenderMs() << " ms each" << std::endl;
+  }
   return pictures_written ? code : EXIT_FAILURE;
 }
 

@@ -42,7 +42,11 @@ QString AgeBadge::text() const {
 QSize AgeBadge::sizeHint() const {
   const QFontMetrics metrics(ui_.theme.font(TextRole::Small));
   const int mark = level_ == AgeLevel::Amber || level_ == AgeLevel::Red ? kMark_px : 0;
-  return {metrics.horizontalAdvance(text()) + mark + 2, metrics.height()};
+  QString widest = text();  // the next figure of the same length must fit as well
+  for (QChar& c : widest) {
+    if (c.isDigit()) c = QLatin1Char('8');
+  }
+  return {metrics.horizontalAdvance(widest) + mark + 2, metrics.height()};
 }
 
 void AgeBadge::paintEvent(QPaintEvent*) {

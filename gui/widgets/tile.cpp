@@ -1,5 +1,6 @@
 #include "gui/widgets/tile.h"
 
+#include <QEvent>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPainter>
@@ -11,6 +12,7 @@ namespace kiln::gui {
 namespace {
 constexpr int kHeader_px = 26;
 constexpr double kRadius_px = 4.0;
+constexpr int kLeastInfo_px = 44;
 }  // namespace
 
 /// Lies over the content while it is stale; lets the mouse through, for the operator may still look
@@ -85,6 +87,7 @@ Tile::Tile(const Ui& ui, const QString& title, QWidget* parent)
   info_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
   info_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
   header_->setStretchFactor(info_, 3);
+  info_->installEventFilter(this);
   badge_->hide();
   restyle();
   connect(&ui_.theme, &Theme::changed, this, &Tile::restyle);
@@ -104,7 +107,25 @@ void Tile::setContent(QWidget* content, bool flush) {
 
 void Tile::setTitle(const QString& title) { title_->setText(title); }
 void Tile::setInfo(const QString& text) {
-  if (info_->text() != text) info_->setText(text);
+  if (info_text_ == text) return;
+  info_text_ = text;
+  fitInfo();
+}
+
+/// What does not fit is shortened, and left out when nothing of use would be left.
+void Tile::fitInfo() {
+  const QFontMetrics metrics(info_->font());
+  const bool useless = info_->width() < kLeastInfo_px && info_->isVisible() &&
+                       metrics.horizontalAdvance(info_text_) > info_->width();
+  const QString shown = !info_->isVisible() ? info_text_
+                        : useless           ? QString()
+                                  : metrics.elidedText(info_text_, Qt::ElideRight, info_->width());
+  if (info_->text() != shown) info_->setText(shown);
+}
+
+bool Tile::eventFilter(QObject* watched, QEvent* event) {
+  if (watched == info_ && event->type() == QEvent::Resize) fitInfo();
+  return QFrame::eventFilter(watched, event);
 }
 
 void Tile::setAge(double age_s, AgeLevel level) {

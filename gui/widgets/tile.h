@@ -33,10 +33,12 @@ class Tile : public QFrame {
  protected:
   void paintEvent(QPaintEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
+  bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
   class Overlay;
   void restyle();
+  void fitInfo();
   Ui ui_;
   QVBoxLayout* layout_;
   QHBoxLayout* header_;
@@ -46,7 +48,7 @@ class Tile : public QFrame {
   QWidget* content_ = nullptr;
   Overlay* overlay_;
   AgeLevel level_ = AgeLevel::Fresh;
-  QString stale_headline_, stale_detail_;
+  QString info_text_, stale_headline_, stale_detail_;
 };
 
 }  // namespace kiln::gui

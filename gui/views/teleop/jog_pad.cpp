@@ -145,11 +145,12 @@ void JogPad::paintEnds(QPainter& painter) const {
   const Palette& p = ui_.theme.colors();
   painter.setPen(isEnabled() ? p.dim : p.faint);
   painter.setFont(ui_.theme.font(TextRole::Small));
-  const QRectF box = QRectF(rect()).adjusted(7, 3, -7, -3);
-  painter.drawText(box, Qt::AlignRight | Qt::AlignVCenter, right_);
-  painter.drawText(box, Qt::AlignLeft | Qt::AlignVCenter, left_);
-  painter.drawText(box, Qt::AlignTop | Qt::AlignHCenter, up_);
-  painter.drawText(box, Qt::AlignBottom | Qt::AlignHCenter, down_);
+  const QRectF wide = QRectF(rect()).adjusted(7, 3, -7, -3);
+  const QRectF high = QRectF(rect()).adjusted(0, 5, 0, -5);  // the words are as wide as the slot
+  painter.drawText(wide, Qt::AlignRight | Qt::AlignVCenter, right_);
+  painter.drawText(wide, Qt::AlignLeft | Qt::AlignVCenter, left_);
+  painter.drawText(high, Qt::AlignTop | Qt::AlignHCenter | Qt::TextDontClip, up_);
+  painter.drawText(high, Qt::AlignBottom | Qt::AlignHCenter | Qt::TextDontClip, down_);
 }
 
 }  // namespace kiln::gui

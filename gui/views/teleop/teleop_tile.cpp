@@ -55,7 +55,7 @@ QWidget* TeleopTile::makeSide() {
   auto* column = new QVBoxLayout(side);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(5);
-  enter_ = new ActButton(ui_, tr("Enter Teleop"));
+  enter_ = new ActButton(ui_, tr("To Teleop"));
   enter_->setKind(ActKind::Manual);
   enter_->setSubtext(tr("robot holds"));
   leave_ = new HoldButton(ui_, tr("To autonomy"), 1.0);
@@ -135,8 +135,7 @@ void TeleopTile::refresh() {
     color = p.caution;
   } else if (why.isEmpty()) {
     const QString slow = hold_.slowdown();
-    text = hold_.holding() ? tr("you drive")
-                           : tr("press and drag a stick, or click here and use the keys");
+    text = hold_.holding() ? tr("you drive") : tr("drag a stick, or click here and use keys");
     if (!slow.isEmpty()) text = slow;
     color = !slow.isEmpty() ? p.caution : hold_.holding() ? p.manual : p.dim;
   }

@@ -110,18 +110,23 @@ void ThermalView::paintBlobs(QPainter& painter, const QRectF& picture) const {
   const auto gap = image_->seq > heat_->image_seq ? image_->seq - heat_->image_seq
                                                   : heat_->image_seq - image_->seq;
   if (gap > kSeqTolerance) return;
+  const double pixel = picture.width() / image_->width;
+  std::vector<QRectF> labelled;  // boxes and labels that a further label must not cover
+  for (const HeatBlob& blob : heat_->blobs) {
+    if (blob.rejection == HeatRejection::None) labelled.push_back(blobRect(blob, picture, pixel));
+  }
   for (auto blob = heat_->blobs.rbegin(); blob != heat_->blobs.rend();
        ++blob) {  // the accepted ones on top
     const bool accepted = blob->rejection == HeatRejection::None;
     const QString why = QString::fromUtf8(toString(blob->rejection).data(),
                                           static_cast<int>(toString(blob->rejection).size()));
     paintBlob(painter, picture, *blob,
-              accepted ? tr("%1 °C").arg(toCelsius(blob->peak_k), 0, 'f', 0) : why);
+              accepted ? tr("%1 °C").arg(toCelsius(blob->peak_k), 0, 'f', 0) : why, labelled);
   }
 }
 
 void ThermalView::paintBlob(QPainter& painter, const QRectF& picture, const HeatBlob& blob,
-                            const QString& label) const {
+                            const QString& label, std::vector<QRectF>& labelled) const {
   const bool accepted = blob.rejection == HeatRejection::None;
   const QRectF box = blobRect(blob, picture, picture.width() / image_->width);
   painter.setBrush(Qt::NoBrush);
@@ -137,6 +142,10 @@ void ThermalView::paintBlob(QPainter& painter, const QRectF& picture, const Heat
   QRectF plate(box.left(), box.top() - metrics.height() - 3, metrics.horizontalAdvance(label) + 8,
                metrics.height() + 1);
   if (plate.top() < picture.top()) plate.moveTop(box.bottom() + 3);
+  const bool covers = std::any_of(labelled.begin(), labelled.end(),
+                                  [&](const QRectF& other) { return other.intersects(plate); });
+  if (covers && !accepted) return;  // the list beside the picture counts it
+  labelled.push_back(plate);
   paintPlate(painter, plate, picture, label, line);
 }
 

@@ -3,6 +3,7 @@
 #include <QWidget>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "common/model/fire.h"
 #include "gui/views/thermal/thermal_scale.h"
@@ -45,7 +46,7 @@ class ThermalView : public QWidget {
   void recolor();
   void paintBlobs(QPainter& painter, const QRectF& picture) const;
   void paintBlob(QPainter& painter, const QRectF& picture, const HeatBlob& blob,
-                 const QString& label) const;
+                 const QString& label, std::vector<QRectF>& labelled) const;
   void paintBar(QPainter& painter, const QRectF& picture) const;
   void paintNotice(QPainter& painter, const QRectF& picture) const;
   void paintReading(QPainter& painter, const QRectF& picture) const;

@@ -13,6 +13,7 @@ namespace kiln::gui {
 namespace {
 constexpr double kLabel_px = 92.0;
 constexpr double kRight_px = 54.0;
+constexpr double kMarkRoom_px = 8.0;
 constexpr double kAxis_px = 18.0;
 constexpr double kZoomStep = 1.3;
 constexpr double kMinSpan_s = 20.0;
@@ -117,8 +118,10 @@ void TimelineView::paintCommands(QPainter& painter, const QRectF& area) const {
   painter.setFont(font);
   painter.save();
   painter.setClipRect(area.adjusted(-8, 0, kRight_px, 0));
-  double free_from = -1e9;
-  for (const TrackedCommand& command : models_.commands.commands()) {
+  double free_until = 1e9;  // marks and texts of newer commands begin here
+  const auto& commands = models_.commands.commands();
+  for (auto it = commands.rbegin(); it != commands.rend(); ++it) {
+    const TrackedCommand& command = *it;
     const double x = xOf(command.sent);
     if (x < area.left() - 4 || x > area.right() + 4) continue;
     const QColor color = command.bad() ? p.caution : command.open() ? p.dim : p.text;
@@ -141,10 +144,12 @@ void TimelineView::paintCommands(QPainter& painter, const QRectF& area) const {
     // edge.
     const bool left = x + 8 + w > area.right() + kRight_px - 4;
     const QRectF box(left ? x - 8 - w : x + 8, area.top(), w + 1, area.height());
-    if (box.left() < free_from || box.left() < area.left()) continue;
+    const bool fits = box.right() < free_until && box.left() >= area.left();
+    free_until = std::min(free_until, x - kMarkRoom_px);
+    if (!fits) continue;
     painter.setPen(color);
     painter.drawText(box, Qt::AlignVCenter | Qt::AlignLeft, text);
-    free_from = std::max(box.right(), x) + 8;
+    free_until = std::min(free_until, box.left() - kMarkRoom_px);
   }
   painter.restore();
 }

@@ -16,12 +16,13 @@ class LeaseChip : public QWidget {
   /// For a chip that is too narrow for text().
   [[nodiscard]] QString shortText() const;
   [[nodiscard]] ActButton* button() const { return button_; }
+  /// Also needed while nothing arrives: an old lease is no lease.
+  void refresh();
 
  protected:
   void paintEvent(QPaintEvent* event) override;
 
  private:
-  void refresh();
   void act();
   Ui ui_;
   LeaseModel& lease_;

@@ -64,6 +64,7 @@ TopBar::TopBar(const Ui& ui, StationModels& models, QWidget* parent)
         static_cast<QWidget*>(stop_)}) {
     row->addWidget(widget);
   }
+  connect(&models_, &StationModels::aged, lease_, &LeaseChip::refresh);
   connect(clear_, &HoldButton::completed, &models_.stop, &StopModel::clear);
   for (const Model* model :
        {static_cast<const Model*>(&models_.status), static_cast<const Model*>(&models_.stop),
