@@ -158,11 +158,11 @@ TEST(Runaway, DrivesFasterThanAskedAndZeroStillMeansZero) {
 
 TEST(Runaway, WithAnOffsetOnlySilenceStopsIt) {
   DrivenWorld w(withFault({}, "runaway=1,0.4@1"));
-  w.stop.set("test", w.world->now());
-  w.run(3.0);
+  w.drive({0, 0, 0}, 3.0);
   EXPECT_NEAR(w.controller.tracking().measured.vx_mps, 0.4 - 0.05, 0.02);
-  w.controlled = false;  // no setpoints: the device's own watchdog brakes
-  w.run(1.0);
+  // After STOP zero does not help either: setpoints are withheld, the device's own watchdog brakes.
+  w.stop.set("test", w.world->now());
+  w.run(2.0);
   EXPECT_NEAR(w.wheels.state_->wheels[0].drive_radps, 0.0, 0.05);
 }
 

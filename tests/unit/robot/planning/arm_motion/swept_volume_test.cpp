@@ -90,7 +90,9 @@ TEST_F(SweptVolume, NeverMissesWhatABruteForceWalkFinds) {
       touched_at_start |= i == 0 && inside > 0;
     }
     hits += touched ? 1 : 0;
-    if (touched && !touched_at_start) EXPECT_TRUE(found.has_value()) << run;
+    if (touched && !touched_at_start) {
+      EXPECT_TRUE(found.has_value()) << run;
+    }
   }
   EXPECT_GT(hits, 10);
 }
