@@ -20,15 +20,6 @@ constexpr double kStandstill_mps = 0.02;
 constexpr double kStandstill_radps = 0.03;
 constexpr Duration kMissionPeriod = std::chrono::milliseconds(20);
 
-template <class T>
-Result<T> loadResource(const std::string& resource) {
-  T config;
-  auto file = resourcePath(resource);
-  if (!file) return tl::make_unexpected(file.error());
-  if (auto loaded = loadConfig(*file, config); !loaded) return tl::make_unexpected(loaded.error());
-  return config;
-}
-
 /// The nominal geometry with what a calibration found of this robot.
 Result<RobotGeometry> calibratedGeometry(const RobotGeometry& nominal,
                                          const RobotOptions& options) {

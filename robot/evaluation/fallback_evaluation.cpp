@@ -115,16 +115,10 @@ Result<void> playByHand(ScriptedOperator& person, const RobotGeometry& robot,
 }  // namespace
 
 Result<EvaluationResult> evaluateFallback(const SweepOptions& options) {
-  RobotGeometry robot;
-  ArenaMap arena;
-  auto robot_file = resourcePath("robot_model/bob.yaml");
-  if (!robot_file) return tl::make_unexpected(robot_file.error());
-  if (auto loaded = loadConfig(*robot_file, robot); !loaded)
-    return tl::make_unexpected(loaded.error());
-  auto arena_file = resourcePath("config/arena_kitchen.yaml");
-  if (!arena_file) return tl::make_unexpected(arena_file.error());
-  if (auto loaded = loadConfig(*arena_file, arena); !loaded)
-    return tl::make_unexpected(loaded.error());
+  const auto robot = loadResource<RobotGeometry>("robot_model/bob.yaml");
+  if (!robot) return tl::make_unexpected(robot.error());
+  const auto arena = loadResource<ArenaMap>("config/arena_kitchen.yaml");
+  if (!arena) return tl::make_unexpected(arena.error());
 
   json runs = json::array();
   std::vector<double> litres, collisions;
@@ -133,7 +127,7 @@ Result<EvaluationResult> evaluateFallback(const SweepOptions& options) {
     if (!live) return tl::make_unexpected(live.error());
     auto person = (*live)->connectOperator("evaluation");
     if (!person) return tl::make_unexpected(person.error());
-    const auto played = playByHand(**person, robot, arena);
+    const auto played = playByHand(**person, *robot, *arena);
     person->reset();
     auto truth_text = (*live)->finish();
     if (!truth_text) return tl::make_unexpected(truth_text.error());

@@ -12,13 +12,11 @@ namespace {
 using nlohmann::json;
 
 Result<PosePlaces> nominalPlaces() {
-  auto file = resourcePath("config/arena_kitchen.yaml");
-  if (!file) return tl::make_unexpected(file.error());
-  ArenaMap arena;
-  if (auto loaded = loadConfig(*file, arena); !loaded) return tl::make_unexpected(loaded.error());
+  const auto arena = loadResource<ArenaMap>("config/arena_kitchen.yaml");
+  if (!arena) return tl::make_unexpected(arena.error());
   PosePlaces places;
-  places.doorway_x_m = arena.doorway.pose().x_m;
-  for (const FirePlaceConfig& fire : arena.fire_places)
+  places.doorway_x_m = arena->doorway.pose().x_m;
+  for (const FirePlaceConfig& fire : arena->fire_places)
     places.work_poses.emplace_back(fire.work_pose.pose().x_m, fire.work_pose.pose().y_m);
   return places;
 }

@@ -23,11 +23,9 @@ int fail(const Error& error) {
 }
 
 Result<void> writeFigure(const MissionRun& run, const std::string& path) {
-  auto file = resourcePath("config/arena_kitchen.yaml");
-  if (!file) return tl::make_unexpected(file.error());
-  ArenaMap arena;
-  if (auto loaded = loadConfig(*file, arena); !loaded) return loaded;
-  return writeFileAtomically(path, trajectorySvg(run, arena));
+  const auto arena = loadResource<ArenaMap>("config/arena_kitchen.yaml");
+  if (!arena) return tl::make_unexpected(arena.error());
+  return writeFileAtomically(path, trajectorySvg(run, *arena));
 }
 
 int runOneMission(const MissionRunOptions& options, const std::string& report,

@@ -12,15 +12,6 @@
 namespace kiln {
 namespace {
 
-template <class T>
-Result<T> loadResource(const std::string& name) {
-  const auto path = resourcePath(name);
-  if (!path) return tl::make_unexpected(path.error());
-  T value;
-  if (auto loaded = loadConfig(*path, value); !loaded) return tl::make_unexpected(loaded.error());
-  return value;
-}
-
 nlohmann::json toJson(const EdgeResidual& residual) {
   return {{"edges", residual.edges},
           {"rms_m", residual.rms_m},

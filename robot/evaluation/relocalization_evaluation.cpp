@@ -36,15 +36,6 @@ struct Trial {
   int first_fix = 0;  ///< scans until the pose was known; 0: never
 };
 
-template <class T>
-Result<T> load(const std::string& resource) {
-  T config;
-  auto file = resourcePath(resource);
-  if (!file) return tl::make_unexpected(file.error());
-  if (auto loaded = loadConfig(*file, config); !loaded) return tl::make_unexpected(loaded.error());
-  return config;
-}
-
 /// What every trial of one seed works with.
 struct Bench {
   RobotGeometry robot;
@@ -145,9 +136,9 @@ Result<std::vector<Trial>> tryOut(int seed, bool calibrate) {
     if (!robot) return tl::make_unexpected(robot.error());
   }
   bench.robot = *robot;
-  auto settings = load<RobotSettings>("config/robot.yaml");
+  auto settings = loadResource<RobotSettings>("config/robot.yaml");
   if (!settings) return tl::make_unexpected(settings.error());
-  auto arena = load<ArenaMap>(settings->arena);
+  auto arena = loadResource<ArenaMap>(settings->arena);
   if (!arena) return tl::make_unexpected(arena.error());
   bench.arena = *arena;
   bench.localizer = settings->localization.localizerConfig();

@@ -1,5 +1,4 @@
 #include <cmath>
-#include <csignal>
 #include <fstream>
 #include <sstream>
 
@@ -8,9 +7,8 @@
 #include "common/config/resources.h"
 #include "common/core/atomic_file.h"
 #include "common/robot_model/robot_geometry.h"
-#include "robot/evaluation/child_process.h"
 #include "robot/evaluation/evaluation.h"
-#include "robot/sim_link/sim_link.h"
+#include "robot/evaluation/lockstep_world.h"
 #include "robot/skills/aim/spray_calibration.h"
 
 namespace kiln {
@@ -33,45 +31,26 @@ Result<void> sprayLevel(SimLink& link, const Vector6d& q) {
 }
 
 Result<json> measure(int seed, const RobotGeometry& robot) {
-  const ScratchFolder scratch("spray");
-  const std::string endpoint = "ipc://" + scratch.file("world");
-  auto world =
-      ChildProcess::start({siblingProgram("kiln-sim"), "--lockstep", "--seed", std::to_string(seed),
-                           "--listen", endpoint, "--truth", scratch.file("truth.json")},
-                          scratch.file("sim.log"));
+  const ManualClock clock;
+  auto world = LockstepWorld::start("spray", seed, "", clock);
   if (!world) return tl::make_unexpected(world.error());
-  {
-    const ManualClock clock;
-    SimLink::Config config;
-    config.endpoint = endpoint;
-    config.lockstep = true;
-    config.version = KILN_VERSION;
-    auto link = SimLink::connect(config, clock);
-    if (!link) return tl::make_unexpected(link.error());
-    if (auto sprayed = sprayLevel(**link, RobotGeometry::radians(robot.q_drive_deg)); !sprayed) {
-      return tl::make_unexpected(sprayed.error());
-    }
-  }  // says bye
-  world->signal(SIGTERM);
-  (void)world->wait(std::chrono::seconds(5));
-  std::ifstream in(scratch.file("truth.json"));
-  const json truth = json::parse(in, nullptr, false);
-  if (truth.is_discarded() || !truth.contains("jet_profile")) {
-    return makeError(ErrorCode::NotFound, "kiln-sim left no jet profile; its last words:\n{}",
-                     tailOf(scratch.file("sim.log"), 6));
+  if (auto sprayed = sprayLevel((*world)->link(), RobotGeometry::radians(robot.q_drive_deg));
+      !sprayed) {
+    return tl::make_unexpected(sprayed.error());
   }
-  return truth["jet_profile"];
+  const auto truth = (*world)->end();
+  if (!truth) return tl::make_unexpected(truth.error());
+  if (!truth->contains("jet_profile"))
+    return makeError(ErrorCode::NotFound, "kiln-sim's truth report holds no jet profile");
+  return truth->at("jet_profile");
 }
 
 }  // namespace
 
 Result<EvaluationResult> calibrateSpray(const SweepOptions& options) {
-  RobotGeometry robot;
-  auto robot_file = resourcePath("robot_model/bob.yaml");
-  if (!robot_file) return tl::make_unexpected(robot_file.error());
-  if (auto loaded = loadConfig(*robot_file, robot); !loaded)
-    return tl::make_unexpected(loaded.error());
-  auto profile = measure(options.first_seed, robot);
+  const auto robot = loadResource<RobotGeometry>("robot_model/bob.yaml");
+  if (!robot) return tl::make_unexpected(robot.error());
+  auto profile = measure(options.first_seed, *robot);
   if (!profile) return tl::make_unexpected(profile.error());
 
   SprayCalibration calibration;

@@ -61,10 +61,8 @@ class WatchedRobot {
                                      clock_, stop_);
     if (!opened) return tl::make_unexpected(opened.error());
     link_ = std::move(*opened);
-    RobotSettings settings;
-    auto file = resourcePath("config/robot.yaml");
-    if (!file) return tl::make_unexpected(file.error());
-    if (auto loaded = loadConfig(*file, settings); !loaded) return loaded;
+    const auto settings = loadResource<RobotSettings>("config/robot.yaml");
+    if (!settings) return tl::make_unexpected(settings.error());
     RobotOptions options;
     options.version = KILN_VERSION;
     Devices devices{sim_->arm(), sim_->base(), sim_->pumps(), sim_->arena()};
@@ -72,7 +70,7 @@ class WatchedRobot {
     devices.thermal = &sim_->thermalCamera();
     devices.connected = [link = sim_.get()] { return link->connected(); };
     devices.resets = [link = sim_.get()] { return link->resets(); };
-    auto robot = Robot::create(settings, options, devices, clock_, executor_, link_.get(), stop_);
+    auto robot = Robot::create(*settings, options, devices, clock_, executor_, link_.get(), stop_);
     if (!robot) return tl::make_unexpected(robot.error());
     robot_ = std::move(*robot);
     executor_.start();

@@ -1,6 +1,5 @@
 #include "robot/evaluation/yard_calibration.h"
 
-#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -12,7 +11,7 @@
 #include "common/core/atomic_file.h"
 #include "common/core/log.h"
 #include "robot/evaluation/child_process.h"
-#include "robot/sim_link/sim_link.h"
+#include "robot/evaluation/lockstep_world.h"
 
 namespace kiln {
 namespace {
@@ -23,41 +22,25 @@ constexpr const char* kRobot = "robot_model/bob.yaml";
 constexpr const char* kYard = "config/arena_calibration.yaml";
 constexpr Duration kStep = std::chrono::milliseconds(8);
 
-template <class T>
-Result<T> loadResource(const std::string& resource) {
-  T config;
-  auto file = resourcePath(resource);
-  if (!file) return tl::make_unexpected(file.error());
-  if (auto loaded = loadConfig(*file, config); !loaded) return tl::make_unexpected(loaded.error());
-  return config;
-}
-
 /// The routine on the devices of a fresh world, as far as the robot sees it.
 struct Routine {
   CalibrationResult found;
   double simulated_s = 0.0;
 };
 
-Result<Routine> calibrateBy(const std::string& endpoint) {
-  auto robot = loadResource<RobotGeometry>(kRobot);
+Result<Routine> calibrateBy(SimLink& link, ManualClock& clock) {
+  auto robot = nominalRobot();
   if (!robot) return tl::make_unexpected(robot.error());
   auto yard = loadResource<ArenaMap>(kYard);
   if (!yard) return tl::make_unexpected(yard.error());
-  ManualClock clock;
-  SimLink::Config config;
-  config.endpoint = endpoint;
-  config.lockstep = true;
-  config.version = KILN_VERSION;
-  auto link = SimLink::connect(config, clock);
-  if (!link) return tl::make_unexpected(link.error());
-  clock.advanceTo((*link)->world().now);
+  clock.advanceTo(link.world().now);
   const auto step = [&]() -> Result<void> {
     clock.advanceBy(kStep);
-    return (*link)->advanceTo(clock.now());
+    return link.advanceTo(clock.now());
   };
-  CalibrationRoutine routine({}, *robot, *yard,
-                             {(*link)->arm(), (*link)->lidar(), (*link)->thermalCamera(),
-                              (*link)->operatorCamera(), clock, step});
+  CalibrationRoutine routine(
+      {}, *robot, *yard,
+      {link.arm(), link.lidar(), link.thermalCamera(), link.operatorCamera(), clock, step});
   auto found = routine.run();
   if (!found) return tl::make_unexpected(found.error());
   return Routine{std::move(*found), toSeconds(clock.now())};
@@ -87,27 +70,17 @@ std::string fingerprint() {
 Result<RobotGeometry> nominalRobot() { return loadResource<RobotGeometry>(kRobot); }
 
 Result<YardCalibration> calibrateInYard(int seed) {
-  const ScratchFolder scratch("calibrate");
-  const std::string endpoint = "ipc://" + scratch.file("world");
-  auto world = ChildProcess::start(
-      {siblingProgram("kiln-sim"), "--lockstep", "--world", "calibration", "--seed",
-       std::to_string(seed), "--listen", endpoint, "--truth", scratch.file("truth.json")},
-      scratch.file("sim.log"));
+  ManualClock clock;
+  auto world = LockstepWorld::start("calibrate", seed, "calibration", clock);
   if (!world) return tl::make_unexpected(world.error());
-  auto done = calibrateBy(endpoint);
-  world->signal(SIGTERM);
-  (void)world->wait(std::chrono::seconds(5));
-  std::string truth = contentOf(scratch.file("truth.json"));
-  const json parsed = json::parse(truth, nullptr, false);
+  auto done = calibrateBy((*world)->link(), clock);
+  const auto truth = (*world)->end();
   if (!done) {
     return makeError(done.error().code, "seed {}: {}; collisions: {}", seed, done.error().message,
-                     parsed.is_object() ? parsed.value("collisions", json::array()).dump() : "?");
+                     truth ? truth->value("collisions", json::array()).dump() : "?");
   }
-  if (parsed.is_discarded() || !parsed.contains("perturbations")) {
-    return makeError(ErrorCode::NotFound, "kiln-sim left no truth; its last words:\n{}",
-                     tailOf(scratch.file("sim.log"), 6));
-  }
-  return YardCalibration{std::move(done->found), done->simulated_s, std::move(truth)};
+  if (!truth) return tl::make_unexpected(truth.error());
+  return YardCalibration{std::move(done->found), done->simulated_s, truth->dump()};
 }
 
 std::string calibrationFile(const YardCalibration& done, int seed) {

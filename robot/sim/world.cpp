@@ -24,15 +24,6 @@ namespace {
 constexpr double kUprightCosine = 0.87;  // 30 degrees: beyond that no wheel saves it
 constexpr double kSunk_m = 0.3;
 
-template <class T>
-Result<T> loadResource(const std::string& relative) {
-  const auto path = resourcePath(relative);
-  if (!path) return tl::make_unexpected(path.error());
-  T value;
-  if (auto ok = loadConfig(*path, value); !ok) return tl::make_unexpected(ok.error());
-  return value;
-}
-
 }  // namespace
 
 struct World::Impl {

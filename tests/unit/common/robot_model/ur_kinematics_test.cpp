@@ -80,9 +80,7 @@ std::size_t subPacket(const std::vector<unsigned char>& bytes, unsigned type) {
 
 TEST(UrKinematics, AgreesWithTheVendorsControllerOnARealPacket) {
   const auto file = testing::dataFile("ur_packets/primary_robot_state.bin");
-  if (!file)
-    GTEST_SKIP()
-        << "no captures here: set KILN_DATA_DIR to read ur_packets/primary_robot_state.bin";
+  if (!file) GTEST_SKIP() << "no captures here: set KILN_DATA_DIR";
   std::ifstream in(*file, std::ios::binary);
   const std::vector<unsigned char> bytes((std::istreambuf_iterator<char>(in)), {});
   // The packet is a UR5e's: same chain, its own lengths.

@@ -36,6 +36,15 @@ class MoveArmTest : public ::testing::Test {
     const Stamp end = clock.now() + fromSeconds(seconds);
     while (clock.now() < end) tick();
   }
+  /// Leaves for the park pose and runs into something on the way.
+  void meetSomething() {
+    skill.startJoints(RobotGeometry::radians(robot.q_park_deg), clock.now());
+    polling = true;
+    advance(1.0);
+    arm.setForce({0, 0, 90});
+    advance(0.3);
+    ASSERT_EQ(status.failure_code, "contact") << status.text;
+  }
   static MoveArm::Config slowly() {
     MoveArm::Config config;
     config.speed_scale = 0.05;
@@ -161,12 +170,7 @@ TEST_F(MoveArmTest, ContactEndsTheMoveAndTheNextMoveWorks) {
 
 TEST_F(MoveArmTest, GoesBackOnItsWayFromAContactThatStillPresses) {
   const Vector6d begin = arm.state()->q;
-  skill.startJoints(RobotGeometry::radians(robot.q_park_deg), clock.now());
-  polling = true;
-  advance(1.0);
-  arm.setForce({0, 0, 90});
-  advance(0.3);
-  ASSERT_EQ(status.failure_code, "contact") << status.text;
+  ASSERT_NO_FATAL_FAILURE(meetSomething());
   const Vector6d at = arm.state()->q;
   arm.setForce({0, 0, 80});  // the arm rests and leans on it
   skill.startBack(0.6, clock.now());
@@ -175,12 +179,7 @@ TEST_F(MoveArmTest, GoesBackOnItsWayFromAContactThatStillPresses) {
   EXPECT_EQ(run().phase, SkillPhase::Done) << status.failure_code << ": " << status.text;
   EXPECT_LT((arm.state()->q - begin).norm(), (at - begin).norm() - 0.05);
 
-  skill.startJoints(RobotGeometry::radians(robot.q_park_deg), clock.now());
-  polling = true;
-  advance(1.0);
-  arm.setForce({0, 0, 90});
-  advance(0.3);
-  ASSERT_EQ(status.failure_code, "contact") << status.text;
+  ASSERT_NO_FATAL_FAILURE(meetSomething());
   skill.startBack(1.0, clock.now());
   advance(0.3);
   ASSERT_EQ(status.phase, SkillPhase::Running) << status.failure_code << ": " << status.text;
