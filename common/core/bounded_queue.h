@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "common/core/mutex.h"
+
 namespace kiln {
 
 enum class DropPolicy { Oldest, Newest };
@@ -57,7 +59,7 @@ class BoundedQueue {
   }
 
  private:
-  mutable std::mutex mutex_;
+  mutable Mutex mutex_;
   std::deque<T> values_;
   std::size_t capacity_;
   DropPolicy policy_;

@@ -5,6 +5,8 @@
 #include <optional>
 #include <utility>
 
+#include "common/core/mutex.h"
+
 namespace kiln {
 
 /// A mailbox for one value: the newest wins, the reader never blocks the writer for longer than a
@@ -41,7 +43,7 @@ class LatestValue {
   }
 
  private:
-  mutable std::mutex mutex_;
+  mutable Mutex mutex_;
   std::optional<T> value_;
   bool fresh_ = false;
   std::uint64_t overwritten_ = 0;

@@ -9,6 +9,7 @@
 
 #include "common/core/clock.h"
 #include "common/core/executor.h"
+#include "common/core/mutex.h"
 
 namespace kiln {
 
@@ -43,7 +44,7 @@ class ThreadExecutor final : public Executor {
 
   const Clock& clock_;
   int pool_threads_;
-  mutable std::mutex mutex_;
+  mutable Mutex mutex_;
   std::condition_variable_any wake_;
   std::deque<Job> jobs_;
   std::set<std::string> kinds_in_flight_;

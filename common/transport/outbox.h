@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "common/core/mutex.h"
 #include "common/core/stamp.h"
 #include "common/transport/frame.h"
 #include "common/transport/monotonic.h"
@@ -56,7 +57,7 @@ class Outbox {
   [[nodiscard]] static double holdBack(const TopicInfo& info, const Row& row,
                                        Monotonic::time_point now);
 
-  mutable std::mutex mutex_;
+  mutable Mutex mutex_;
   std::array<Row, kTopicCount> rows_;
 };
 

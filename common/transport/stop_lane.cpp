@@ -5,6 +5,7 @@
 #include <thread>
 #include <utility>
 
+#include "common/core/mutex.h"
 #include "common/core/scheduling.h"
 #include "common/transport/monotonic.h"
 #include "common/transport/wake_event.h"
@@ -64,7 +65,7 @@ struct StopClient::Impl {
   ZmqContext context;
   ZmqSocket socket;
   WakeEvent wake;
-  std::mutex mutex;
+  Mutex mutex;
   std::optional<std::string> incoming;  // guarded by mutex
   std::optional<std::string> pending;   // stop thread only
   Monotonic::time_point last_sent{};

@@ -9,6 +9,7 @@
 
 #include "common/core/bounded_queue.h"
 #include "common/core/log.h"
+#include "common/core/mutex.h"
 #include "common/geom/frames.h"
 #include "common/transport/monotonic.h"
 #include "common/transport/robot_end.h"
@@ -91,7 +92,7 @@ struct OperatorLink::Impl {
   LinkTap tap;
   std::atomic<bool> keep_pictures{false};
   BoundedQueue<ReceivedCommand> commands;
-  mutable std::mutex mutex;
+  mutable Mutex mutex;
   std::map<std::string, Peer> peers;  // guarded by mutex
   std::unique_ptr<RobotEnd> end;      // after everything its thread uses
   std::unique_ptr<StopReceiver> stop_receiver;

@@ -12,6 +12,7 @@
 
 #include "common/config/config_archive.h"
 #include "common/core/clock.h"
+#include "common/core/mutex.h"
 #include "common/model/device_sample.h"
 #include "common/model/status.h"
 #include "common/record/foxglove.h"
@@ -82,7 +83,7 @@ class RunRecorder {
   const Run run_;
   const Clock& clock_;
   std::atomic<bool> on_{false};
-  mutable std::mutex mutex_;
+  mutable Mutex mutex_;
   std::condition_variable_any wake_, space_;
   std::deque<Job> jobs_;                 // guarded by mutex_
   std::map<Topic, Remembered> latched_;  // guarded by mutex_

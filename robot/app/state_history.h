@@ -4,6 +4,7 @@
 #include <mutex>
 #include <optional>
 
+#include "common/core/mutex.h"
 #include "common/core/stamp.h"
 #include "common/geom/pose.h"
 
@@ -32,7 +33,7 @@ class StateHistory {
 
  private:
   Duration span_;
-  mutable std::mutex mutex_;
+  mutable Mutex mutex_;
   std::deque<RobotSample> samples_;
 };
 

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "common/core/mutex.h"
 #include "robot/control/arm_setpoint_check.h"
 #include "robot/control/contact_monitor.h"
 #include "robot/control/joint_tracker.h"
@@ -267,7 +268,7 @@ struct ArmController::Impl {
   std::string lost_text;
   std::atomic<bool> release_requested{false};
   std::optional<Stamp> last_tick, last_sent;
-  mutable std::mutex mutex;
+  mutable Mutex mutex;
   ArmTracking tracking;
 };
 

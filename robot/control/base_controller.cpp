@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "common/core/mutex.h"
 #include "robot/control/jerk_limiter.h"
 #include "robot/control/setpoint_slot.h"
 #include "robot/control/swerve_kinematics.h"
@@ -207,7 +208,7 @@ struct BaseController::Impl {
   bool aligning = false, seen_state = false, silent = false;
   std::optional<Stamp> last_tick;
   std::atomic<bool> reset_odometry{false};
-  mutable std::mutex mutex;
+  mutable Mutex mutex;
   BaseTracking tracking;
   std::shared_ptr<const Geofence> fence;
   std::optional<Pose2> X_map_odom;

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "common/core/mutex.h"
 #include "robot/control/pump_model.h"
 #include "robot/control/setpoint_slot.h"
 
@@ -129,7 +130,7 @@ struct PumpController::Impl {
   double run_s = 0.0, sprayed_l = 0.0;
   bool run_exhausted = false;
   std::optional<Stamp> last_tick;
-  mutable std::mutex mutex;  ///< models, sprayed_l and tracking
+  mutable Mutex mutex;  ///< models, sprayed_l and tracking
   PumpTracking tracking;
 };
 

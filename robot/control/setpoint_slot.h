@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "common/core/mutex.h"
 #include "common/core/stamp.h"
 
 namespace kiln {
@@ -57,7 +58,7 @@ class SetpointSlot {
   }
 
  private:
-  mutable std::mutex mutex_;
+  mutable Mutex mutex_;
   std::optional<Setpoint> newest_;
   std::string refusal_;
 };

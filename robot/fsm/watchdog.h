@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "common/core/clock.h"
+#include "common/core/mutex.h"
 
 namespace kiln {
 
@@ -32,7 +33,7 @@ class Watchdog {
  private:
   const Clock& clock_;
   const Duration limit_;
-  mutable std::mutex mutex_;
+  mutable Mutex mutex_;
   std::string_view state_;  ///< static storage; empty = no call is under way
   std::string_view method_;
   Stamp since_;

@@ -4,6 +4,7 @@
 #include <mutex>
 #include <string>
 
+#include "common/core/mutex.h"
 #include "common/core/stamp.h"
 
 namespace kiln {
@@ -37,7 +38,7 @@ class StopLatch {
 
  private:
   std::atomic<bool> latched_{false};
-  mutable std::mutex mutex_;
+  mutable Mutex mutex_;
   std::string source_;
   Stamp since_;
 };

@@ -5,6 +5,7 @@
 #include <optional>
 #include <thread>
 
+#include "common/core/mutex.h"
 #include "robot/sim/lidar_sensor.h"
 
 namespace kiln::sim {
@@ -33,7 +34,7 @@ class LidarThread {
 
   RayScene scene_;
   LidarSensor sensor_;
-  std::mutex mutex_;
+  Mutex mutex_;
   std::condition_variable_any changed_;
   std::optional<Chunk> chunk_;  ///< in work until it is reset
   PointCloudPtr scan_;

@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "common/core/latest_value.h"
+#include "common/core/mutex.h"
 #include "kiln/v1/device.pb.h"
 #include "robot/sim_link/sim_link.h"
 
@@ -35,7 +36,7 @@ class Outbox {
   [[nodiscard]] bool open() const { return open_.load(); }
 
  private:
-  std::mutex mutex_;
+  Mutex mutex_;
   v1::device::Advance pending_;
   bool filled_ = false;
   std::atomic<bool> open_{false};
@@ -97,7 +98,7 @@ class SensorSwitch {
  private:
   void fill(v1::device::Advance& message) const;
   Outbox& outbox_;
-  mutable std::mutex mutex_;
+  mutable Mutex mutex_;
   std::array<bool, 3> on_{};
 };
 
@@ -125,7 +126,7 @@ class SimSensor final : public Interface {
 
  private:
   SensorSwitch& sensors_;
-  std::mutex mutex_;
+  Mutex mutex_;
   Sink<FramePtr> sink_;
 };
 

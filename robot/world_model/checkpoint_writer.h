@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "common/core/error.h"
+#include "common/core/mutex.h"
 
 namespace kiln {
 
@@ -36,7 +37,7 @@ class CheckpointWriter {
   void work(const std::stop_token& stop);
 
   const std::string path_;
-  mutable std::mutex mutex_;
+  mutable Mutex mutex_;
   std::condition_variable_any changed_;
   std::optional<Order> order_;
   bool busy_ = false;

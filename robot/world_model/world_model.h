@@ -4,6 +4,7 @@
 #include <mutex>
 
 #include "common/core/error.h"
+#include "common/core/mutex.h"
 #include "robot/world_model/world_state.h"
 
 namespace kiln {
@@ -37,7 +38,7 @@ class WorldModel {
 
  private:
   WorldState state_;
-  mutable std::mutex mutex_;
+  mutable Mutex mutex_;
   std::shared_ptr<const WorldState> published_;
 };
 

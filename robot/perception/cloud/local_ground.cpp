@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/geom/bearing.h"
+
 namespace kiln {
 namespace {
 
@@ -53,10 +55,9 @@ LocalGround::LocalGround(const Config& config, const PointCloud& scan_base) : co
 }
 
 std::size_t LocalGround::sectorOf(double x, double y) const {
-  // float: the compiler's atan2 of doubles costs three times as much, for each point
   const double share =
-      (std::atan2(static_cast<float>(y), static_cast<float>(x)) + M_PI) / (2.0 * M_PI);
-  return std::min(static_cast<std::size_t>(share * config_.sectors),
+      (bearing(static_cast<float>(y), static_cast<float>(x)) + M_PI) / (2.0 * M_PI);
+  return std::min(static_cast<std::size_t>(std::max(0.0, share * config_.sectors)),
                   static_cast<std::size_t>(config_.sectors) - 1);
 }
 

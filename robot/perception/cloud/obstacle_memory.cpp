@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "common/geom/bearing.h"
+
 namespace kiln {
 namespace {
 
@@ -13,8 +15,8 @@ constexpr double kRingStep = 2.0, kLowestRing = -15.0;  // deg (VLP-16 manual)
 constexpr std::int64_t kHalfExtent = 1 << 20;
 
 std::size_t azimuthBin(const Eigen::Vector3f& p_lidar) {
-  const double share = (std::atan2(p_lidar.y(), p_lidar.x()) + M_PI) / (2.0 * M_PI);
-  return std::min(static_cast<std::size_t>(share * kAzimuths), kAzimuths - 1);
+  const double share = (bearing(p_lidar.y(), p_lidar.x()) + M_PI) / (2.0 * M_PI);
+  return std::min(static_cast<std::size_t>(std::max(0.0, share * kAzimuths)), kAzimuths - 1);
 }
 
 }  // namespace
