@@ -59,9 +59,12 @@ void addOptions(CLI::App& app, Arguments& a) {
   app.add_flag("--flat-ground", a.flat_ground,
                "the arena has no ramp and no edge (kiln-sim --world fire_flat; with "
                "--localization walls, the shipped map has both)");
-  app.add_option("--mission", a.robot.mission, "mission")
+  app.add_option(
+         "--mission", a.robot.mission,
+         "fire, or mapping: a round to record for kiln-eval map (locates by walls, needs no "
+         "map)")
       ->default_val("fire")
-      ->check(CLI::IsMember({"fire"}));
+      ->check(CLI::IsMember({"fire", "mapping"}));
   app.add_flag("--start", a.robot.start, "start the mission as soon as all checks pass");
   app.add_flag("--resume", a.robot.resume, "go on from the checkpoint in the state folder");
   app.add_flag("--lockstep", a.robot.lockstep,
@@ -113,6 +116,7 @@ Result<RobotSettings> loadSettings(const Arguments& a) {
   }
   if (auto loaded = loadConfig(file, settings); !loaded) return tl::make_unexpected(loaded.error());
   if (a.heat_threshold_c > 0.0) settings.heat_detector.threshold_c = a.heat_threshold_c;
+  if (a.robot.mission == "mapping") settings.localization.method = "walls";  // there is no map yet
   if (!a.localization.empty()) settings.localization.method = a.localization;
   settings.flat_ground = settings.flat_ground || a.flat_ground;
   return settings;

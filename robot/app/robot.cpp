@@ -76,7 +76,7 @@ Robot::Impl::Impl(const RobotSettings& settings_in, const RobotOptions& options_
                [this](std::size_t place, const Eigen::Vector3d& p_plate_map, double facing_rad) {
                  arena.movePlace(place, p_plate_map, facing_rad);
                }},
-              settings.fire, spray_in, {options.mission_uuid, checkpointPath()}),
+              settings.fire, spray_in, {options.mission_uuid, checkpointPath(), options.mission}),
       macros(settings.macros,
              {robot, arena, move_arm, pumps, spray_in, [this] { return pose(); },
               [this] { return flange(); }, [this] { return authority.epoch().value(); }},

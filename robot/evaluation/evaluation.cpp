@@ -19,6 +19,11 @@ const std::vector<Evaluation>& evaluations() {
        "again, or said to be lost?",
        evaluateRelocalization,
        {2, 5, 1, ""}},
+      {"mapping",
+       "the mapping drive, recorded, and the map made of it: loops, and keyframes against the "
+       "truth",
+       evaluateMapping,
+       {1, 3, 1, ""}},
       {"fallback",
        "litres delivered by hand commands alone over the operator link, real time",
        evaluateFallback,

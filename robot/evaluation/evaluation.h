@@ -32,6 +32,7 @@ struct Evaluation {
 [[nodiscard]] Result<EvaluationResult> evaluateRelocalization(const SweepOptions& options);
 [[nodiscard]] Result<EvaluationResult> evaluateFallback(const SweepOptions& options);
 [[nodiscard]] Result<EvaluationResult> evaluateStop(const SweepOptions& options);
+[[nodiscard]] Result<EvaluationResult> evaluateMapping(const SweepOptions& options);
 [[nodiscard]] Result<EvaluationResult> evaluatePlaceCheck(const SweepOptions& options);
 [[nodiscard]] Result<EvaluationResult> calibrateSensors(const SweepOptions& options);
 [[nodiscard]] Result<EvaluationResult> calibrateSpray(const SweepOptions& options);

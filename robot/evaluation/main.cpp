@@ -103,7 +103,7 @@ int main(int argc, char** argv) {
   auto* run = app.add_subcommand("run", "one mission; exit status 0 only on success");
   run->add_option("--mission", run_options.mission, "mission")
       ->default_val("fire")
-      ->check(CLI::IsMember({"fire"}));
+      ->check(CLI::IsMember({"fire", "mapping"}));
   run->add_option("--seed", run_options.seed, "seed of the world")
       ->default_val(1)
       ->check(CLI::NonNegativeNumber);
@@ -168,7 +168,7 @@ int main(int argc, char** argv) {
   if (*map) {
     const auto made = makeMap(map_options);
     if (!made) return fail(made.error());
-    fmt::print("{}", *made);
+    fmt::print("{}", made->text);
     return kSuccess;
   }
   if (*run) {

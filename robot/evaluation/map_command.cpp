@@ -12,6 +12,8 @@
 namespace kiln {
 namespace {
 
+constexpr int kNoLoops = 1'000'000;  // keyframes that would have to lie in between
+
 nlohmann::json toJson(const EdgeResidual& residual) {
   return {{"edges", residual.edges},
           {"rms_m", residual.rms_m},
@@ -34,6 +36,7 @@ std::string toJson(const MapReport& report) {
                            {"path_m", report.path_m},
                            {"odometry", toJson(report.odometry)},
                            {"registration", toJson(report.registration)},
+                           {"loop_before", toJson(report.loop_before)},
                            {"loop", toJson(report.loop)},
                            {"overlap_min", report.overlap_min},
                            {"overlap_median", report.overlap_median},
@@ -75,12 +78,14 @@ Result<void> writeSideFiles(const MapCommandOptions& options, const BuiltMap& bu
 
 }  // namespace
 
-Result<std::string> makeMap(const MapCommandOptions& options) {
+Result<MadeMap> makeMap(const MapCommandOptions& options) {
   const auto robot = loadResource<RobotGeometry>(options.geometry);
   if (!robot) return tl::make_unexpected(robot.error());
   const auto arena = loadResource<ArenaMap>(options.arena);
   if (!arena) return tl::make_unexpected(arena.error());
-  MapBuilder builder({}, *arena);
+  MapBuilder::Config config;
+  if (!options.close_loops) config.loop_gap = kNoLoops;
+  MapBuilder builder(config, *arena);
   RecordedScanCount count;
   for (const std::string& path : options.recordings) {
     const auto added = addRecording(path, *robot, *arena, builder);
@@ -97,8 +102,10 @@ Result<std::string> makeMap(const MapCommandOptions& options) {
     return tl::make_unexpected(written.error());
   if (auto written = writeSideFiles(options, *built); !written)
     return tl::make_unexpected(written.error());
-  return fmt::format("{}{} scans read, {} without motion, {} messages damaged\n",
-                     formatReport(built->report), count.scans, count.without_motion, count.damaged);
+  std::string text =
+      fmt::format("{}{} scans read, {} without motion, {} messages damaged\n",
+                  formatReport(built->report), count.scans, count.without_motion, count.damaged);
+  return MadeMap{std::move(*built), std::move(text)};
 }
 
 }  // namespace kiln

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "common/core/error.h"
+#include "robot/localization/mapping/map_builder.h"
 
 namespace kiln {
 
@@ -14,11 +15,17 @@ struct MapCommandOptions {
   std::string geometry = "robot_model/bob.yaml";    ///< resource
   std::string pcd, ply;                             ///< also write the surfels for other programs
   std::string json;                                 ///< also write the report
+  bool close_loops = true;                          ///< false: to see what they are good for
+};
+
+struct MadeMap {
+  BuiltMap built;
+  std::string text;  ///< the report, for people
 };
 
 /// `kiln-eval map RUN.mcap -o kitchen.map`: builds the localisation map from recorded scans and
-/// wheel odometry and prints how good it is. Error: what is wrong with a recording, or why no map
+/// wheel odometry and says how good it is. Error: what is wrong with a recording, or why no map
 /// comes of it.
-[[nodiscard]] Result<std::string> makeMap(const MapCommandOptions& options);
+[[nodiscard]] Result<MadeMap> makeMap(const MapCommandOptions& options);
 
 }  // namespace kiln

@@ -89,7 +89,8 @@ json mergeReports(const MissionRunOptions& options, const json& robot, const jso
   const auto& collisions = truth.at("collisions");
   const double burning_l = burningLitres(truth);
   const std::string outcome = robot.value("outcome", "unknown");
-  success = outcome == "success" && collisions.empty() && burning_l >= 1.0;
+  const bool wet = options.mission != "fire" || burning_l >= 1.0;
+  success = outcome == "success" && collisions.empty() && wet;
   return json{{"mission", options.mission},
               {"seed", options.seed},
               {"version", KILN_VERSION},

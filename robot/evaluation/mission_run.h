@@ -39,8 +39,8 @@ struct MissionRun {
 }
 
 /// Starts kiln-sim and kiln-robotd on private sockets, waits for both, merges what the robot says
-/// of itself with what the world knows. Success = mission ended as finished, at least 1 l through
-/// the burning place's opening, no collision.
+/// of itself with what the world knows. Success = mission ended as finished, no collision, and
+/// after a fire mission at least 1 l through the burning place's opening.
 [[nodiscard]] Result<MissionRun> runMission(const MissionRunOptions& options);
 
 }  // namespace kiln

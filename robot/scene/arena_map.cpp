@@ -34,6 +34,7 @@ void ArenaMap::visit(ConfigArchive& a) {
   a.list("furniture", furniture, "roughly known boxes");
   a.section("doorway", doorway, "middle of the entrance, X into the building");
   a.list("entry_path", entry_path, "way-points from the start to the hub inside");
+  a.list("mapping_path", mapping_path, "round of the mapping drive, back to the start");
   a.list("fire_places", fire_places, "known fire places, in the order of visits");
   a.list("geofence", geofence,
          "border of the arena, corners in order; the whole robot stays inside");

@@ -47,6 +47,9 @@ struct ArenaMap {
   std::vector<BoxConfig> furniture;          ///< known only roughly (+-15 cm)
   GroundPoseConfig doorway;                  ///< middle of the entrance, X into the building
   std::vector<GroundPoseConfig> entry_path;  ///< way-points start -> inside (last one is the hub)
+  /// Way-points of the mapping drive (mission `mapping`): from the start through the building and
+  /// back to the start. Empty: none can be driven.
+  std::vector<GroundPoseConfig> mapping_path;
   std::vector<FirePlaceConfig> fire_places;
   /// Border of the arena: corners in order. The whole robot stays inside, also in teleoperation.
   /// Empty: the box of the four limits below.

@@ -222,6 +222,7 @@ Result<BuiltMap> MapBuilder::build() {
                      kMinKeyframes, keyframes_.size());
   }
   closeLoops();
+  report_.loop_before = residualOf(poses_, edges_, EdgeKind::Loop);
   auto solved = solvePoseGraph(poses_, edges_);
   if (!solved) return tl::make_unexpected(solved.error());
   poses_ = std::move(solved->poses);
@@ -238,6 +239,7 @@ Result<BuiltMap> MapBuilder::build() {
   if (auto anchored = anchor(report_); !anchored) return tl::make_unexpected(anchored.error());
   out.map = segments(report_);
   out.poses = poses_;
+  for (const Keyframe& keyframe : keyframes_) out.stamps.push_back(keyframe.scan_base.stamp);
   out.report = report_;
   return out;
 }

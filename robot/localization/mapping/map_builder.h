@@ -16,6 +16,7 @@ namespace kiln {
 struct BuiltMap {
   LocalizationMap map;                   ///< segments "outdoor" and "indoor"
   std::vector<Eigen::Isometry3d> poses;  ///< X_map_base of every keyframe
+  std::vector<Stamp> stamps;             ///< of their scans
   MapReport report;
 };
 

@@ -18,7 +18,7 @@ std::string formatReport(const MapReport& report) {
   out += fmt::format("pose graph: cost {:.1f} -> {:.1f}, {} loops closed\n", report.initial_cost,
                      report.final_cost, report.loops);
   out += line("odometry", report.odometry) + line("registration", report.registration) +
-         line("loop", report.loop);
+         line("loop before", report.loop_before) + line("loop", report.loop);
   out += fmt::format(
       "each scan against the others: {:.0f} % explained (least {:.0f} %), rms {:.3f} m\n",
       100.0 * report.overlap_median, 100.0 * report.overlap_min, report.rms_median_m);

@@ -13,6 +13,7 @@ struct MapReport {
   int scans = 0, keyframes = 0, refused = 0, loops = 0;
   double path_m = 0.0;                        ///< along the keyframes
   EdgeResidual odometry, registration, loop;  ///< after optimisation
+  EdgeResidual loop_before;                   ///< what the loops found, before it
   double initial_cost = 0.0, final_cost = 0.0;
   double overlap_min = 0.0, overlap_median = 0.0;  ///< share of a scan that the others explain
   double rms_median_m = 0.0;  ///< of a scan against the others, along the normals

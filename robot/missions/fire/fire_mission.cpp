@@ -8,6 +8,7 @@
 #include "common/core/log.h"
 #include "robot/missions/common/mission_checkpoint.h"
 #include "robot/missions/fire/fire_machine.h"
+#include "robot/missions/mapping/mapping_machine.h"
 #include "robot/skills/aim/jet.h"
 #include "robot/world_model/checkpoint_writer.h"
 
@@ -45,7 +46,10 @@ struct FireMission::Impl {
                    ? nullptr
                    : std::make_unique<CheckpointWriter>(options.checkpoint_path)),
         context(devices, config, calibration),
-        machine(makeFireMachine(context, options.mission_uuid)) {
+        mapping{devices.clock, devices.arena,       context.drive,
+                devices.pose,  config.drive.rest_s, config.drive.max_faults},
+        machine(options.mission == "mapping" ? makeMappingMachine(mapping, options.mission_uuid)
+                                             : makeFireMachine(context, options.mission_uuid)) {
     machine->onTransition([this](const FsmCheckpoint& fsm) { save(fsm, true); });
   }
 
@@ -91,6 +95,7 @@ struct FireMission::Impl {
   const Options options;
   std::unique_ptr<CheckpointWriter> writer;
   FireContext context;
+  MappingContext mapping;
   std::unique_ptr<Machine> machine;
   std::optional<Alarm> storage_alarm;
   Stamp last_save;
@@ -137,6 +142,7 @@ void FireMission::onReset(Stamp now) {
   world.at_place = world.current_place = -1;
   world.entry_faults = world.blocked_in_row = 0;
   m.context.aim.reset();
+  m.mapping.passed = 0;
   m.context.haltAll(now);
   if (m.machine->status(now).running)
     m.machine->restart(fmt::format("reset {}", world.resets), now);

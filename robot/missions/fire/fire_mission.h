@@ -14,8 +14,9 @@ namespace kiln {
 [[nodiscard]] WorldState initialWorld(const ArenaMap& arena);
 
 /// Challenge 3 (NimbRo UGV paper, section "Challenge 3"): finds the fire and sprays it, both places
-/// one after the other. Confined to the mission thread, except machine().blocked() and
-/// machine().info().
+/// one after the other; or, as mission "mapping", the drive that its map is made from, with the
+/// same world model, checkpoint and reset. Confined to the mission thread, except
+/// machine().blocked() and machine().info().
 ///
 /// Wiring (robot/app), each 20 ms: onDetections() for each thermal result that has arrived, then
 /// tick(now). Operator commands go to machine(): start, pause, resume, changeState. In teleop and
@@ -25,6 +26,7 @@ class FireMission {
   struct Options {
     std::string mission_uuid{};     ///< empty: random; give one in lockstep
     std::string checkpoint_path{};  ///< empty: nothing is kept
+    std::string mission = "fire";   ///< or "mapping": the mapping drive in place of the fires
   };
   FireMission(const FireDevices& devices, const FireConfig& config,
               const SprayCalibration& calibration, const Options& options);
