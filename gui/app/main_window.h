@@ -41,6 +41,7 @@ class MainWindow : public QWidget {
   [[nodiscard]] FsmTile* fsmTile() const { return fsm_; }
   [[nodiscard]] StateCard* stateCard() const { return state_; }
   [[nodiscard]] SceneTile* sceneTile() const { return scene_; }
+  [[nodiscard]] ForcedJump& forcedJump() { return jump_; }
   [[nodiscard]] ReplayBar* replayBar() const { return replay_bar_; }  ///< null without a replay
   [[nodiscard]] AlarmStrip* alarmStrip() const { return alarms_; }
   [[nodiscard]] ForcedJump& jump() { return jump_; }

@@ -81,7 +81,10 @@ void FakeLink::stop() {
   lane_.acked = false;
   ++lane_.press;
   emit stopLane(lane_);
-  if (silent_) return;
+  if (!silent_) latchStop();
+}
+
+void FakeLink::latchStop() {
   robot_.stop(operatorName().toStdString());
   lane_.acked = true;
   lane_.pressed = false;
@@ -104,6 +107,7 @@ void FakeLink::step(double dt_s) {
   }
   if (!silent_) {
     heard_ = clock_.now();
+    if (lane_.pressed) latchStop();  // kept since the link was lost
     for (const auto& [kind, body] : held_) {
       robot_.handle(clientId().toStdString(), operatorName().toStdString(), body);
     }

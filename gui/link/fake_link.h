@@ -51,6 +51,7 @@ class FakeLink : public Link {
   void publishState();
   void publishSensors();
   void publishHealth();
+  void latchStop();
   Options options_;
   ManualClock clock_;
   FakeRobot robot_;

@@ -119,7 +119,10 @@ void RobotLink::Impl::deliverHealth(const LinkReport& r) {
   h.drops = r.drops;
   reachable = h.state == LinkState::Up || h.state == LinkState::Degraded;
   emit link.health(h);
-  if (session && session->stopReport().state != StopReport::State::Sent) deliverQuietLane();
+  if (!session) return;
+  // A press that waits for its answer, or for a link, stays shown.
+  const StopReport pressed = session->stopReport();
+  pressed.state == StopReport::State::Sent ? deliverStop(pressed) : deliverQuietLane();
 }
 
 void RobotLink::Impl::deliverStop(const StopReport& r) {
@@ -194,7 +197,10 @@ void RobotLink::releaseSetpoints() {
 }
 
 void RobotLink::stop() {
-  if (impl_->session) impl_->session->stop();
+  if (!impl_->session) return;
+  impl_->session->stop();
+  // Without a link the lane has nothing to report: the press itself is shown all the same.
+  impl_->deliverStop(impl_->session->stopReport());
 }
 
 }  // namespace kiln::gui

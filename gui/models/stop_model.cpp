@@ -18,7 +18,9 @@ StopStage StopModel::stage() const {
   const bool known = hasData() && ageLevel() != AgeLevel::Red;
   if (known && robot_.latched)
     return robot_.standstill_proven ? StopStage::Standstill : StopStage::Latched;
-  if (lane_.pressed) return lane_.acked ? StopStage::Latched : StopStage::Sent;
+  if (lane_.pressed) {
+    return lane_.acked ? StopStage::Latched : lane_.reachable ? StopStage::Sent : StopStage::Kept;
+  }
   return lane_.reachable ? StopStage::Clear : StopStage::Unreachable;
 }
 

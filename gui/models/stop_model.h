@@ -6,7 +6,8 @@
 namespace kiln::gui {
 
 enum class StopStage : std::uint8_t {
-  Unreachable,  ///< the stop lane has no peer: the button cannot work
+  Unreachable,  ///< the robot is not heard: a press is kept until it is
+  Kept,         ///< pressed while it is not heard: goes out by itself as soon as it is
   Clear,        ///< nothing latched
   Sent,         ///< asked, not yet latched
   Latched,      ///< the robot has latched it; something may still coast

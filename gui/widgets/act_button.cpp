@@ -4,6 +4,7 @@
 #include <QKeyEvent>
 #include <QPainter>
 #include <QPainterPath>
+#include <QResizeEvent>
 #include <algorithm>
 
 namespace kiln::gui {
@@ -12,17 +13,17 @@ namespace {
 constexpr int kPadX_px = 12;
 constexpr int kPadY_px = 7;
 constexpr double kRadius_px = 4.0;
+constexpr int kMostTitleLines = 2, kMostSubLines = 4;
 constexpr double kSmallest =
     0.85;  // of a font that is too wide; more is not readable from a step away
 
-/// The font, a little smaller if the text is too wide for it.
-QFont fitted(QFont font, const QString& text, int width_px) {
-  const int needed = QFontMetrics(font).horizontalAdvance(text);
-  if (needed > width_px) {
-    font.setPointSizeF(font.pointSizeF() *
-                       std::max(kSmallest, 0.99 * width_px / static_cast<double>(needed)));
-  }
-  return font;
+/// One line, a little smaller if need be; else as many lines as there may be.
+FittedText fitLines(const QString& text, const QFont& font, int width_px, int max_lines) {
+  QFont smaller = font;
+  smaller.setPointSizeF(font.pointSizeF() * kSmallest);
+  FittedText out = fitText(text, {font, smaller}, width_px, 1);
+  if (!out.whole && max_lines > 1) out = fitText(text, {font, smaller}, width_px, max_lines);
+  return out;
 }
 
 bool isPressKey(int key) { return key == Qt::Key_Return || key == Qt::Key_Enter; }
@@ -39,10 +40,44 @@ ActButton::ActButton(const Ui& ui, const QString& title, QWidget* parent)
 
 void ActButton::setSubtext(const QString& text) {
   if (text == subtext_) return;
-  const bool other_height = text.isEmpty() != subtext_.isEmpty();
+  const bool other_height =
+      text.isEmpty() != subtext_.isEmpty() || sizePolicy().hasHeightForWidth();
   subtext_ = text;
   if (other_height) updateGeometry();
   update();
+}
+
+void ActButton::setWrapping(bool wrapping) {
+  QSizePolicy policy = sizePolicy();
+  policy.setHeightForWidth(wrapping);
+  setSizePolicy(policy);
+}
+
+ActButton::Texts ActButton::textsFor(int width, int height) const {
+  const int room = width - kPadX_px;
+  const QFont strong = ui_.theme.font(TextRole::Strong), small = ui_.theme.font(TextRole::Small);
+  const int free = height < 0 ? 1000 : height - 4, strong_px = QFontMetrics(strong).height(),
+            small_px = QFontMetrics(small).height();
+  const int least_sub_px = subtext_.isEmpty() ? 0 : small_px;
+  Texts out;
+  out.title = fitLines(text(), strong, room,
+                       std::clamp((free - least_sub_px) / strong_px, 1, kMostTitleLines));
+  if (!subtext_.isEmpty()) {
+    out.sub = fitLines(subtext_, small, room,
+                       std::clamp((free - out.title.height()) / small_px, 1, kMostSubLines));
+  }
+  return out;
+}
+
+bool ActButton::textIsWhole() const {
+  const Texts texts = textsFor(width(), height());
+  return texts.title.whole && texts.sub.whole &&
+         texts.title.height() + texts.sub.height() <= height();
+}
+
+int ActButton::heightForWidth(int width) const {
+  const Texts texts = textsFor(width, -1);
+  return std::max(sizeHint().height(), texts.title.height() + texts.sub.height() + 2 * kPadY_px);
 }
 
 void ActButton::setKind(ActKind kind) {
@@ -62,7 +97,14 @@ QSize ActButton::sizeHint() const {
 QSize ActButton::minimumSizeHint() const {
   const QFontMetrics title(ui_.theme.font(TextRole::Strong));
   return {std::min(sizeHint().width(), title.horizontalAdvance(text()) + kPadX_px),
-          sizeHint().height()};
+          sizePolicy().hasHeightForWidth() ? heightForWidth(width()) : sizeHint().height()};
+}
+
+void ActButton::resizeEvent(QResizeEvent* event) {
+  QAbstractButton::resizeEvent(event);
+  // The words are kept whole even where the layout is short of height: it asks for the minimum
+  // anew.
+  if (sizePolicy().hasHeightForWidth() && event->oldSize().width() != width()) updateGeometry();
 }
 
 ActButton::Look ActButton::look() const {
@@ -112,21 +154,15 @@ void ActButton::paintEvent(QPaintEvent*) {
       QPen(hasFocus() ? ui_.theme.colors().active_line : l.line, hasFocus() || lit() ? 2.0 : 1.2));
   painter.drawPath(outline);
 
-  const int text_width = width() - kPadX_px;
-  const QFont title = fitted(ui_.theme.font(TextRole::Strong), text(), text_width);
-  const QFont small = fitted(ui_.theme.font(TextRole::Small), subtext_, text_width);
-  const int title_height = QFontMetrics(title).height();
-  const int small_height = subtext_.isEmpty() ? 0 : QFontMetrics(small).height();
-  int y = (height() - title_height - small_height) / 2;
+  const Texts texts = textsFor(width(), height());
+  const double y = (height() - texts.title.height() - texts.sub.height()) / 2.0;
+  const QRectF area(kPadX_px / 2.0, y, width() - kPadX_px, texts.title.height());
   painter.setPen(l.text);
-  painter.setFont(title);
-  painter.drawText(QRect(kPadX_px / 2, y, text_width, title_height), Qt::AlignCenter,
-                   QFontMetrics(title).elidedText(text(), Qt::ElideRight, text_width));
+  paintFitted(painter, area, Qt::AlignHCenter | Qt::AlignTop, texts.title);
   if (subtext_.isEmpty()) return;
   painter.setPen(l.sub);
-  painter.setFont(small);
-  painter.drawText(QRect(kPadX_px / 2, y + title_height, text_width, small_height), Qt::AlignCenter,
-                   QFontMetrics(small).elidedText(subtext_, Qt::ElideRight, text_width));
+  paintFitted(painter, area.translated(0, texts.title.height()), Qt::AlignHCenter | Qt::AlignTop,
+              texts.sub);
 }
 
 void ActButton::keyPressEvent(QKeyEvent* event) {

@@ -2,6 +2,7 @@
 
 #include <QAbstractButton>
 
+#include "gui/widgets/fitted_text.h"
 #include "gui/widgets/theme.h"
 
 namespace kiln::gui {
@@ -23,13 +24,20 @@ class ActButton : public QAbstractButton {
   ActButton(const Ui& ui, const QString& title, QWidget* parent = nullptr);
   void setSubtext(const QString& text);
   [[nodiscard]] QString subtext() const { return subtext_; }
+  /// Long texts take more lines and the button grows higher, as far as its layout gives it the
+  /// room.
+  void setWrapping(bool wrapping);
+  /// Whether all of both texts is to be read at the present size.
+  [[nodiscard]] bool textIsWhole() const;
   void setKind(ActKind kind);
   [[nodiscard]] ActKind kind() const { return kind_; }
   [[nodiscard]] QSize sizeHint() const override;
   [[nodiscard]] QSize minimumSizeHint() const override;
+  [[nodiscard]] int heightForWidth(int width) const override;
 
  protected:
   void paintEvent(QPaintEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
   void keyReleaseEvent(QKeyEvent* event) override;
   /// 0..1, painted as a fill from the left.
@@ -41,7 +49,12 @@ class ActButton : public QAbstractButton {
   struct Look {
     QColor fill, line, text, sub, progress;
   };
+  struct Texts {
+    FittedText title, sub;
+  };
   [[nodiscard]] Look look() const;
+  /// @param height  -1: as high as the texts need.
+  [[nodiscard]] Texts textsFor(int width, int height) const;
   Ui ui_;
   QString subtext_;
   ActKind kind_ = ActKind::Normal;

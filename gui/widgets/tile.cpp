@@ -13,6 +13,7 @@ namespace {
 constexpr int kHeader_px = 26;
 constexpr double kRadius_px = 4.0;
 constexpr int kLeastInfo_px = 44;
+const QString kBetweenParts = QStringLiteral(" · ");
 }  // namespace
 
 /// Lies over the content while it is stale; lets the mouse through, for the operator may still look
@@ -112,14 +113,20 @@ void Tile::setInfo(const QString& text) {
   fitInfo();
 }
 
-/// What does not fit is shortened, and left out when nothing of use would be left.
+/// Of parts "a · b · c" the first are left out until the rest fits; a single one is shortened, and
+/// left out when nothing of use would be left.
 void Tile::fitInfo() {
   const QFontMetrics metrics(info_->font());
+  QStringList parts = info_text_.split(kBetweenParts);
+  while (info_->isVisible() && parts.size() > 1 &&
+         metrics.horizontalAdvance(parts.join(kBetweenParts)) > info_->width())
+    parts.removeFirst();
+  const QString text = parts.join(kBetweenParts);
   const bool useless = info_->width() < kLeastInfo_px && info_->isVisible() &&
-                       metrics.horizontalAdvance(info_text_) > info_->width();
-  const QString shown = !info_->isVisible() ? info_text_
+                       metrics.horizontalAdvance(text) > info_->width();
+  const QString shown = !info_->isVisible() ? text
                         : useless           ? QString()
-                                  : metrics.elidedText(info_text_, Qt::ElideRight, info_->width());
+                                  : metrics.elidedText(text, Qt::ElideRight, info_->width());
   if (info_->text() != shown) info_->setText(shown);
 }
 

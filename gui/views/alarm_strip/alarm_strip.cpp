@@ -4,6 +4,8 @@
 #include <QHBoxLayout>
 #include <QPainter>
 
+#include "gui/widgets/fitted_text.h"
+
 namespace kiln::gui {
 
 namespace {
@@ -137,10 +139,10 @@ void AlarmStrip::paintEvent(QPaintEvent*) {
   painter.drawText(QRect(kText_px, 0, 200, height()), Qt::AlignVCenter | Qt::AlignLeft, word);
   const int x = kText_px + QFontMetrics(strong).horizontalAdvance(word) + 10;
   const int room = right - note_width - 16 - x;
-  painter.setFont(body);
   painter.setPen(p.text);
-  painter.drawText(QRect(x, 0, room, height()), Qt::AlignVCenter | Qt::AlignLeft,
-                   QFontMetrics(body).elidedText(text(), Qt::ElideRight, room));
+  FittedText words = fitText(text(), {body}, room, 1);
+  if (!words.whole) words = fitText(text(), {small}, room, 2);
+  paintFitted(painter, QRectF(x, 0, room, height()), Qt::AlignVCenter | Qt::AlignLeft, words);
 }
 
 }  // namespace kiln::gui

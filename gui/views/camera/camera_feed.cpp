@@ -65,11 +65,11 @@ QString CameraFeed::headline() const {
 QString CameraFeed::advice() const {
   switch (state_) {
     case CameraState::Stalled:
-      return tr("check cable and link · other views may be live");
+      return tr("check cable and link; other views may be live");
     case CameraState::Stale:
       return tr("link or camera is overloaded · do not steer by it");
     case CameraState::DecodeFailed:
-      return tr("check versions of both ends · other views may be live");
+      return tr("check versions of both ends; other views may be live");
     default:
       return {};
   }

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "common/geom/frames.h"
+#include "gui/widgets/fitted_text.h"
 #include "gui/widgets/hatch.h"
 
 namespace kiln::gui {
@@ -143,8 +144,10 @@ void CameraPicture::paintNote(QPainter& painter, const QRectF& area, const QStri
   const QFontMetricsF strong_metrics(strong), small_metrics(small);
   const double w =
       std::max(strong_metrics.horizontalAdvance(headline), small_metrics.horizontalAdvance(advice));
-  const double h = strong_metrics.height() + (advice.isEmpty() ? 0.0 : small_metrics.height());
-  QRectF box(0, 0, std::min(w + 2 * kNoteMargin_px, area.width() - 6), h + kNoteMargin_px);
+  const double width = std::min(w + 2 * kNoteMargin_px, area.width() - 6);
+  const FittedText below = fitText(advice, {small}, static_cast<int>(width) - 8, 2);
+  const double h = strong_metrics.height() + below.height();
+  QRectF box(0, 0, width, h + kNoteMargin_px);
   box.moveCenter(area.center());
   painter.setRenderHint(QPainter::Antialiasing);
   painter.setPen(QPen(quiet ? p.border : p.caution, 1.2));
@@ -156,9 +159,7 @@ void CameraPicture::paintNote(QPainter& painter, const QRectF& area, const QStri
   painter.drawText(inner, Qt::AlignTop | Qt::AlignHCenter,
                    strong_metrics.elidedText(headline, Qt::ElideRight, inner.width()));
   painter.setPen(p.dim);
-  painter.setFont(small);
-  painter.drawText(inner, Qt::AlignBottom | Qt::AlignHCenter,
-                   small_metrics.elidedText(advice, Qt::ElideRight, inner.width()));
+  paintFitted(painter, inner, Qt::AlignBottom | Qt::AlignHCenter, below);
 }
 
 }  // namespace kiln::gui

@@ -8,11 +8,13 @@
 namespace kiln::gui {
 namespace {
 
-constexpr double kWallOpacity = 0.13;  // the inside stays visible through every wall
-constexpr double kFurnitureOpacity = 0.30;
+// Only the faces towards the camera are drawn; the inside stays visible through every wall.
+constexpr double kWallOpacity = 0.24;
+constexpr double kFurnitureOpacity = 0.50;
 constexpr double kWallHeight_m = 2.2;  // boxes that reach higher are building, lower ones furniture
 
-/// The nominal map: faint solids with their edges.
+/// The nominal map: faint solids with their edges. Large and translucent, they are what a software
+/// renderer spends its time on: three meshes in all, no lamp, no hidden faces.
 class ArenaActor final : public RebuiltActor {
  public:
   explicit ArenaActor(vtkRenderer& renderer) : RebuiltActor(renderer, SceneLayer::Walls) {}
@@ -20,21 +22,25 @@ class ArenaActor final : public RebuiltActor {
  protected:
   void build(const SceneSnapshot& snapshot, Freshness freshness,
              const SceneColors& colors) override {
-    for (const SceneBox& box : snapshot.arena) addBox(box, freshness, colors);
+    std::vector<PlacedBox> walls, furniture, all;
+    for (const SceneBox& box : snapshot.arena) {
+      const double top = box.X_map_box.translation().z() + box.half_extent.z();
+      all.push_back({box.X_map_box, box.half_extent});
+      (top > kWallHeight_m ? walls : furniture).push_back(all.back());
+    }
+    addSolids(walls, agedColor(colors.wall, freshness, colors), kWallOpacity);
+    addSolids(furniture, agedColor(colors.furniture, freshness, colors), kFurnitureOpacity);
+    vtkActor& edges = add(edgesOf(all), agedColor(colors.wall_edge, freshness, colors),
+                          Eigen::Isometry3d::Identity());
+    makeFlat(edges, 1.0F);
   }
 
  private:
-  void addBox(const SceneBox& box, Freshness freshness, const SceneColors& colors) {
-    const double top = box.X_map_box.translation().z() + box.half_extent.z();
-    const bool wall = top > kWallHeight_m;
-    const Rgb color = wall ? colors.wall : colors.furniture;
-    vtkActor& solid =
-        add(boxMesh(2.0 * box.half_extent), agedColor(color, freshness, colors), box.X_map_box);
-    solid.GetProperty()->SetOpacity(wall ? kWallOpacity : kFurnitureOpacity);
-    solid.GetProperty()->SetInterpolationToFlat();
-    vtkActor& edges = add(boxEdges(-box.half_extent, box.half_extent),
-                          agedColor(colors.wall_edge, freshness, colors), box.X_map_box);
-    makeFlat(edges, 1.0F);
+  void addSolids(const std::vector<PlacedBox>& boxes, Rgb color, double opacity) {
+    vtkActor& solid = add(shadedBoxes(boxes, color), color, Eigen::Isometry3d::Identity());
+    solid.GetProperty()->LightingOff();  // the shades are in the mesh
+    solid.GetProperty()->BackfaceCullingOn();
+    solid.GetProperty()->SetOpacity(opacity);
   }
 };
 

@@ -5,6 +5,8 @@
 #include <QStringList>
 #include <algorithm>
 
+#include "gui/widgets/fitted_text.h"
+
 namespace kiln::gui {
 
 namespace {
@@ -120,13 +122,15 @@ void LocalizationChip::paintEvent(QPaintEvent*) {
   paintMark(painter, {kPadding_px + 6.0, 13.0}, color);
   const int x = kPadding_px + kMark_px, room = width() - x - kPadding_px + 2;
   const QFont strong = ui_.theme.font(TextRole::Strong), small = ui_.theme.font(TextRole::Small);
-  painter.setFont(strong);
+  QFont smaller = strong, smallest = strong;
+  smaller.setPointSizeF(0.92 * strong.pointSizeF());
+  smallest.setPointSizeF(0.84 * strong.pointSizeF());
   painter.setPen(p.text);
-  painter.drawText(QRect(x, 3, room, 19), Qt::AlignVCenter | Qt::AlignLeft,
-                   QFontMetrics(strong).elidedText(title(), Qt::ElideRight, room));
+  paintFitted(painter, QRectF(x, 3, room, 19), Qt::AlignVCenter | Qt::AlignLeft,
+              fitText(title(), {strong, smaller, smallest}, room, 1));
   painter.setFont(small);
   painter.setPen(shown == Mark::Good ? p.dim : p.text);
-  painter.drawText(detailArea(width()), Qt::TextWordWrap | Qt::AlignLeft, detail());
+  painter.drawText(detailArea(width()), int{Qt::TextWordWrap} | Qt::AlignLeft, detail());
 }
 
 }  // namespace kiln::gui

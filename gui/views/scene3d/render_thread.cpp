@@ -3,6 +3,8 @@
 #include <QElapsedTimer>
 #include <QMetaObject>
 
+#include "common/core/scheduling.h"
+
 namespace kiln::gui {
 
 RenderThread::RenderThread(SceneRenderer::Config config, RobotShape shape, QObject* parent)
@@ -26,6 +28,7 @@ void RenderThread::request(SceneJob job) {
 
 void RenderThread::run(const std::stop_token& stop, SceneRenderer::Config config,
                        const RobotShape& shape) {
+  runAfterOthers();  // a picture may be late, a key may not
   SceneRenderer renderer(config, shape);
   while (!stop.stop_requested()) {
     std::optional<SceneJob> job;

@@ -148,12 +148,13 @@ void SceneCanvas::mouseMoveEvent(QMouseEvent* event) {
   }
   const QPoint d = event->pos() - last_mouse_;
   last_mouse_ = event->pos();
+  const OrbitCamera::Mode before = camera_.mode();
   if (event->buttons() & Qt::LeftButton)
     camera_.orbit(d.x(), d.y(), height());
   else
     camera_.pan(d.x(), d.y(), height());
   want();
-  emit cameraModeChanged();
+  if (camera_.mode() != before) emit cameraModeChanged();  // its listeners restyle buttons: dear
 }
 
 void SceneCanvas::mouseDoubleClickEvent(QMouseEvent*) {

@@ -20,7 +20,7 @@ class SceneCanvas : public QWidget {
  public:
   struct Config {
     SceneRenderer::Config renderer;
-    double max_fps = 16.0;
+    double max_fps = 18.0;  ///< a little above the 15 that are wanted: timers come late
   };
   /// @param open_gl  openGlAvailable(), or false to force the top view.
   SceneCanvas(const Ui& ui, const RobotShape& shape, Config config, bool open_gl,

@@ -202,7 +202,7 @@ void SceneTile::refresh() {
   layers_->show(snapshot);
   const QString refusal = QString::fromStdString(state_.cloudRefusal());
   QString info = canvas_->usesOpenGl()
-                     ? tr("live %1").arg(pointsText(snapshot.cloud))
+                     ? tr("live · %1").arg(pointsText(snapshot.cloud))
                      : tr("top view, no OpenGL · %1").arg(pointsText(snapshot.cloud));
   if (layers_->isHidden()) info = tr("F1 layers · ") + info;
   setInfo(refusal.isEmpty() ? info : refusal);

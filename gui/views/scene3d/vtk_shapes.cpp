@@ -65,16 +65,57 @@ std::array<Eigen::Vector3d, 8> corners(const Eigen::Vector3d& low, const Eigen::
   return out;
 }
 
+/// Of a box, as indices into corners(), seen from outside counter-clockwise: low and high z, y, x.
+constexpr std::array<std::array<vtkIdType, 4>, 6> kFaces{
+    {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}};
+constexpr std::array<double, 6> kShades{0.55, 1.0, 0.78, 0.78, 0.62, 0.62};  // of those faces
+
+using Edges = std::vector<std::vector<Eigen::Vector3d>>;
+
+void appendEdges(const Eigen::Isometry3d& X, const std::array<Eigen::Vector3d, 8>& c, Edges& out) {
+  for (std::size_t i = 0; i < 8; ++i)
+    for (const std::size_t bit : {1U, 2U, 4U})
+      if ((i & bit) == 0) out.push_back({X * c[i], X * c[i | bit]});
+}
+
 }  // namespace
+
+vtkSmartPointer<vtkPolyData> shadedBoxes(const std::vector<PlacedBox>& boxes, Rgb color) {
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkUnsignedCharArray> rgb;
+  rgb->SetNumberOfComponents(3);
+  vtkNew<vtkCellArray> cells;
+  for (const PlacedBox& box : boxes) {
+    const auto c = corners(-box.half_extent, box.half_extent);
+    for (std::size_t f = 0; f < kFaces.size(); ++f) {
+      cells->InsertNextCell(4);
+      for (const vtkIdType corner : kFaces[f]) {
+        const Eigen::Vector3d p = box.X * c[static_cast<std::size_t>(corner)];
+        cells->InsertCellPoint(points->InsertNextPoint(p.data()));
+        rgb->InsertNextTuple3(kShades[f] * color.r, kShades[f] * color.g, kShades[f] * color.b);
+      }
+    }
+  }
+  auto mesh = vtkSmartPointer<vtkPolyData>::New();
+  mesh->SetPoints(points);
+  mesh->SetPolys(cells);
+  mesh->GetPointData()->SetScalars(rgb);
+  return mesh;
+}
+
+vtkSmartPointer<vtkPolyData> edgesOf(const std::vector<PlacedBox>& boxes) {
+  Edges edges;
+  for (const PlacedBox& box : boxes)
+    appendEdges(box.X, corners(-box.half_extent, box.half_extent), edges);
+  return lineMesh(edges);
+}
 
 vtkSmartPointer<vtkPolyData> boxMesh(const Eigen::Vector3d& size) {
   vtkNew<vtkPoints> points;
   for (const Eigen::Vector3d& p : corners(-0.5 * size, 0.5 * size))
     points->InsertNextPoint(p.data());
-  constexpr vtkIdType kFaces[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
-                                      {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
   vtkNew<vtkCellArray> faces;
-  for (const auto& face : kFaces) faces->InsertNextCell(4, face);
+  for (const auto& face : kFaces) faces->InsertNextCell(4, face.data());
   auto mesh = vtkSmartPointer<vtkPolyData>::New();
   mesh->SetPoints(points);
   mesh->SetPolys(faces);
@@ -99,11 +140,8 @@ vtkSmartPointer<vtkPolyData> sphereMesh(double radius) {
 }
 
 vtkSmartPointer<vtkPolyData> boxEdges(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
-  const auto c = corners(low, high);
-  std::vector<std::vector<Eigen::Vector3d>> edges;
-  for (std::size_t i = 0; i < 8; ++i)
-    for (const std::size_t bit : {1U, 2U, 4U})
-      if ((i & bit) == 0) edges.push_back({c[i], c[i | bit]});
+  Edges edges;
+  appendEdges(Eigen::Isometry3d::Identity(), corners(low, high), edges);
   return lineMesh(edges);
 }
 

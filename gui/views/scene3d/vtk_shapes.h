@@ -23,6 +23,16 @@ namespace kiln::gui {
 /// Along Z, centred; half spheres beyond the length.
 [[nodiscard]] vtkSmartPointer<vtkPolyData> capsuleMesh(double radius, double length);
 [[nodiscard]] vtkSmartPointer<vtkPolyData> sphereMesh(double radius);
+/// A box somewhere: centre and axes, half of its size.
+struct PlacedBox {
+  Eigen::Isometry3d X;
+  Eigen::Vector3d half_extent;
+};
+/// All of them in one mesh, outer faces counter-clockwise, coloured as if lit from above and one
+/// side: for large solids that no lamp is to shade.
+[[nodiscard]] vtkSmartPointer<vtkPolyData> shadedBoxes(const std::vector<PlacedBox>& boxes,
+                                                       Rgb color);
+[[nodiscard]] vtkSmartPointer<vtkPolyData> edgesOf(const std::vector<PlacedBox>& boxes);
 /// The twelve edges of a box given by two corners.
 [[nodiscard]] vtkSmartPointer<vtkPolyData> boxEdges(const Eigen::Vector3d& low,
                                                     const Eigen::Vector3d& high);

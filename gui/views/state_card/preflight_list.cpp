@@ -4,10 +4,13 @@
 #include <QPainter>
 #include <algorithm>
 
+#include "gui/widgets/fitted_text.h"
+
 namespace kiln::gui {
 
 namespace {
-constexpr int kRow_px = 22, kPassing_px = 19, kMark_px = 20, kGap_px = 4;
+constexpr int kRow_px = 22, kPassing_px = 19, kMark_px = 20, kGap_px = 4, kBetween_px = 8;
+constexpr double kSmallest = 0.88;
 
 QString text(const std::string& s) { return QString::fromStdString(s); }
 /// Needs the operator's eyes.
@@ -57,10 +60,25 @@ int PreflightList::actionHeight(const Check& check, int width) const {
       .height();
 }
 
+/// 0 if what was found stands beside the name.
+int PreflightList::detailHeight(const Check& check, int width) const {
+  const int name =
+      QFontMetrics(ui_.theme.font(TextRole::Strong)).horizontalAdvance(text(check.name));
+  const QFontMetrics small(ui_.theme.font(TextRole::Small));
+  const int room = std::max(60, width - kMark_px);
+  if (name + kBetween_px + small.horizontalAdvance(text(check.detail)) <= room) return 0;
+  return small.boundingRect(QRect(0, 0, room, 1000), Qt::TextWordWrap, text(check.detail)).height();
+}
+
+int PreflightList::rowHeight(const Check& check, int width) const {
+  if (!noted(check)) return kPassing_px;
+  return kRow_px + detailHeight(check, width) + actionHeight(check, width) + kGap_px;
+}
+
 int PreflightList::notedHeight(int width) const {
   int height = 0;
   for (const Check& check : checks_) {
-    if (noted(check)) height += kRow_px + actionHeight(check, width) + kGap_px;
+    if (noted(check)) height += rowHeight(check, width);
   }
   return height;
 }
@@ -88,18 +106,22 @@ void PreflightList::paintNoted(QPainter& painter, const Check& check, int y, int
     painter.drawEllipse(c + QPointF(0, 5), 1.7, 1.7);
   }
   const QFont strong = ui_.theme.font(TextRole::Strong), small = ui_.theme.font(TextRole::Small);
-  const int name = QFontMetrics(strong).horizontalAdvance(text(check.name)) + 8;
   painter.setFont(strong);
   painter.setPen(p.text);
   painter.drawText(QRect(kMark_px, y, width - kMark_px, kRow_px), Qt::AlignVCenter | Qt::AlignLeft,
                    text(check.name));
   painter.setFont(small);
   painter.setPen(p.caution);
-  const int room = std::max(0, width - kMark_px - name);
-  painter.drawText(QRect(kMark_px + name, y, room, kRow_px), Qt::AlignVCenter | Qt::AlignRight,
-                   QFontMetrics(small).elidedText(text(check.detail), Qt::ElideRight, room));
+  const int room = width - kMark_px, below = detailHeight(check, width);
+  if (below == 0) {
+    painter.drawText(QRect(kMark_px, y, room, kRow_px), Qt::AlignVCenter | Qt::AlignRight,
+                     text(check.detail));
+  } else {
+    painter.drawText(QRect(kMark_px, y + kRow_px - 2, room, below), Qt::TextWordWrap,
+                     text(check.detail));
+  }
   painter.setPen(p.text);
-  painter.drawText(QRect(kMark_px, y + kRow_px - 2, width - kMark_px, actionHeight(check, width)),
+  painter.drawText(QRect(kMark_px, y + kRow_px - 2 + below, room, actionHeight(check, width)),
                    Qt::TextWordWrap, text(check.action));
 }
 
@@ -113,13 +135,16 @@ void PreflightList::paintPassing(QPainter& painter, const Check& check, int y) c
   const QFontMetrics metrics(small);
   painter.setFont(small);
   painter.setPen(p.text);
-  const int name = metrics.horizontalAdvance(text(check.name)) + 8;
+  const int name = metrics.horizontalAdvance(text(check.name)) + kBetween_px;
   painter.drawText(QRect(kMark_px, y, width() - kMark_px, kPassing_px),
                    Qt::AlignVCenter | Qt::AlignLeft, text(check.name));
   painter.setPen(p.dim);
   const int room = std::max(0, width() - kMark_px - name);
-  painter.drawText(QRect(kMark_px + name, y, room, kPassing_px), Qt::AlignVCenter | Qt::AlignRight,
-                   metrics.elidedText(text(check.detail), Qt::ElideRight, room));
+  QFont smaller = small;
+  smaller.setPointSizeF(small.pointSizeF() * kSmallest);
+  paintFitted(painter, QRectF(kMark_px + name, y, room, kPassing_px),
+              Qt::AlignVCenter | Qt::AlignRight,
+              fitText(text(check.detail), {small, smaller}, room, 1));
 }
 
 void PreflightList::paintEvent(QPaintEvent*) {
@@ -131,8 +156,7 @@ void PreflightList::paintEvent(QPaintEvent*) {
   std::size_t i = 0;
   for (; i < checks_.size(); ++i) {
     const Check& check = checks_[i];
-    const int needs =
-        !noted(check) ? kPassing_px : kRow_px + actionHeight(check, width()) + kGap_px;
+    const int needs = rowHeight(check, width());
     const bool last = i + 1 == checks_.size();
     if (y + needs > (last ? height() : bottom)) break;
     noted(check) ? paintNoted(painter, check, y, width()) : paintPassing(painter, check, y);

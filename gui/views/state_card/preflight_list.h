@@ -29,6 +29,8 @@ class PreflightList : public QWidget {
 
  private:
   [[nodiscard]] int actionHeight(const Check& check, int width) const;
+  [[nodiscard]] int detailHeight(const Check& check, int width) const;
+  [[nodiscard]] int rowHeight(const Check& check, int width) const;
   [[nodiscard]] int notedHeight(int width) const;
   void paintNoted(QPainter& painter, const Check& check, int y, int width) const;
   void paintPassing(QPainter& painter, const Check& check, int y) const;

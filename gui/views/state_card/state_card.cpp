@@ -1,6 +1,7 @@
 #include "gui/views/state_card/state_card.h"
 
 #include <QGridLayout>
+#include <QResizeEvent>
 #include <QVBoxLayout>
 #include <algorithm>
 
@@ -10,6 +11,7 @@ namespace {
 constexpr int kMaxExits = 4;
 constexpr int kExitsBesideRelease = 2;  // the release needs the room
 constexpr int kExitsInOneColumn = 2;    // more stand two a row, and their texts are shorter
+constexpr int kLow_px = 300;
 constexpr double kInputAmber_s = 0.5;
 constexpr double kInputRed_s = 2.0;
 constexpr double kInputShown_s = 0.005;
@@ -42,6 +44,7 @@ StateCard::StateCard(const Ui& ui, StationModels& models, ForcedJump& jump, QWid
   exits_title_->setDim(true);
   exits_grid_->setContentsMargins(0, 0, 0, 0);
   exits_grid_->setSpacing(6);
+  for (const int side : {0, 1}) exits_grid_->setColumnStretch(side, 1);
   column->addWidget(notice_);
   column->addWidget(release_);
   column->addWidget(display_);
@@ -160,6 +163,22 @@ void StateCard::refresh() {
   refreshExits();
 }
 
+void StateCard::arrangeExits() {
+  const int count = static_cast<int>(exits_.size());
+  // In a low card the guards need the room.
+  const int columns = count <= 1 || (count <= kExitsInOneColumn && height() >= kLow_px) ? 1 : 2;
+  for (int n = 0; n < count; ++n) {
+    const bool alone = columns == 2 && n == count - 1 && n % 2 == 0;
+    exits_grid_->addWidget(exits_[static_cast<std::size_t>(n)], n / columns, n % columns, 1,
+                           columns == 1 || alone ? 2 : 1);
+  }
+}
+
+void StateCard::resizeEvent(QResizeEvent* event) {
+  Tile::resizeEvent(event);
+  if ((event->oldSize().height() >= kLow_px) != (height() >= kLow_px)) arrangeExits();
+}
+
 void StateCard::refreshExits() {
   const QString current = models_.fsm.current();
   const FsmInfo* info = models_.fsm.info();
@@ -177,16 +196,11 @@ void StateCard::refreshExits() {
       if (!jump_.enterable(to)) continue;
       auto* button = new ActButton(ui_, models_.fsm.label(to));
       button->setSubtext(QString::fromStdString(edge.consequence));
+      button->setWrapping(true);
       connect(button, &QAbstractButton::clicked, this, [this, to] { jump_.pick(to); });
       exits_.push_back(button);
     }
-    const int count = static_cast<int>(exits_.size());
-    const int columns = count <= kExitsInOneColumn ? 1 : 2;
-    for (int n = 0; n < count; ++n) {
-      const bool alone = columns == 2 && n == count - 1 && n % 2 == 0;
-      exits_grid_->addWidget(exits_[static_cast<std::size_t>(n)], n / columns, n % columns, 1,
-                             columns == 1 || alone ? 2 : 1);
-    }
+    arrangeExits();
   }
   QString why;
   const bool may = models_.mayCommand(&why);

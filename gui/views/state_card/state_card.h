@@ -26,11 +26,15 @@ class StateCard : public Tile {
   [[nodiscard]] HoldButton* protectiveRelease() const { return release_; }
   [[nodiscard]] const std::vector<ActButton*>& exits() const { return exits_; }
 
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
+
  private:
   void refresh();
   void refreshHeader(const FsmStatus& fsm);
   void refreshNotice();
   void refreshExits();
+  void arrangeExits();
   [[nodiscard]] std::vector<TickList::Row> guardRows(const FsmStatus& fsm) const;
   Ui ui_;
   StationModels& models_;

@@ -4,30 +4,64 @@
 #include <QPainter>
 #include <algorithm>
 
+#include "gui/widgets/fitted_text.h"
+
 namespace kiln::gui {
 
 namespace {
 constexpr int kRow_px = 22;
 constexpr int kMark_px = 20;
-constexpr int kSlack_px = 4;  // a row may lose so much of its air
+constexpr int kSlack_px = 4;    // a row may lose so much of its air
+constexpr int kSecond_px = 15;  // a detail below its name
+constexpr int kBetween_px = 8;
+constexpr double kSmallest = 0.9;
 }  // namespace
 
 TickList::TickList(const Ui& ui, QWidget* parent) : QWidget(parent), ui_(ui) {
-  setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+  QSizePolicy policy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+  policy.setHeightForWidth(true);
+  setSizePolicy(policy);
   connect(&ui_.theme, &Theme::changed, this, qOverload<>(&QWidget::update));
 }
 
 void TickList::setRows(std::vector<Row> rows) {
   if (rows == rows_) return;
-  const bool resized = rows.size() != rows_.size();
+  std::vector<bool> tall(rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const bool was = i < rows_.size() && tall_[i] && rows_[i].name == rows[i].name;
+    tall[i] = was || needsTwoLines(rows[i], width());
+  }
+  const bool resized = rows.size() != rows_.size() || tall != tall_;
   rows_ = std::move(rows);
+  tall_ = std::move(tall);
   if (resized) updateGeometry();
   update();
 }
 
-QSize TickList::sizeHint() const { return {260, static_cast<int>(rows_.size()) * kRow_px}; }
+void TickList::resizeEvent(QResizeEvent*) {
+  for (std::size_t i = 0; i < rows_.size(); ++i) tall_[i] = needsTwoLines(rows_[i], width());
+  updateGeometry();
+}
 
-void TickList::paintMark(QPainter& painter, const QRectF& area, Mark mark) {
+bool TickList::needsTwoLines(const Row& row, int width) const {
+  const int name = QFontMetrics(ui_.theme.font(TextRole::Body)).horizontalAdvance(row.name);
+  const int detail = QFontMetrics(ui_.theme.font(TextRole::Small)).horizontalAdvance(row.detail);
+  return !row.detail.isEmpty() && kMark_px + name + kBetween_px + detail > width;
+}
+
+int TickList::rowHeight(std::size_t i, int width) const {
+  return tall_[i] || needsTwoLines(rows_[i], width) ? kRow_px + kSecond_px : kRow_px;
+}
+
+int TickList::heightForWidth(int width) const {
+  int height = 0;
+  for (std::size_t i = 0; i < rows_.size(); ++i) height += rowHeight(i, width);
+  return height;
+}
+
+QSize TickList::sizeHint() const { return {260, heightForWidth(std::max(200, width()))}; }
+
+void TickList::paintMark(QPainter& painter, const QRectF& area, Mark mark) const {
   const Palette& p = ui_.theme.colors();
   const QPointF c = area.center();
   switch (mark) {
@@ -52,40 +86,50 @@ void TickList::paintMark(QPainter& painter, const QRectF& area, Mark mark) {
   }
 }
 
-void TickList::paintEvent(QPaintEvent*) {
+void TickList::paintRow(QPainter& painter, std::size_t i, int y) const {
   const Palette& p = ui_.theme.colors();
+  const Row& row = rows_[i];
+  const QFont body = ui_.theme.font(TextRole::Body), small = ui_.theme.font(TextRole::Small);
+  const int room = width() - kMark_px;
+  const bool two = rowHeight(i, width()) > kRow_px;
+  paintMark(painter, QRectF(0, y, kMark_px - 4, kRow_px), row.mark);
+  painter.setPen(p.text);
+  QFont smaller = body;
+  smaller.setPointSizeF(small.pointSizeF());
+  paintFitted(painter, QRectF(kMark_px, y, room, kRow_px), Qt::AlignVCenter | Qt::AlignLeft,
+              fitText(row.name, {body, smaller}, room, 1));
+  painter.setPen(row.mark == Mark::Attention && row.level == AgeLevel::Fresh
+                     ? p.caution
+                     : ui_.theme.ageColor(row.level));
+  QFont smallest = small;
+  smallest.setPointSizeF(small.pointSizeF() * kSmallest);
+  if (two) {
+    paintFitted(painter, QRectF(kMark_px, y + kRow_px - 4, room, kSecond_px),
+                Qt::AlignVCenter | Qt::AlignLeft, fitText(row.detail, {small, smallest}, room, 1));
+  } else {
+    painter.setFont(small);
+    painter.drawText(QRect(kMark_px, y, room, kRow_px), Qt::AlignVCenter | Qt::AlignRight,
+                     row.detail);
+  }
+}
+
+void TickList::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   painter.setRenderHint(QPainter::Antialiasing);
-  const QFont body = ui_.theme.font(TextRole::Body);
-  const QFont small = ui_.theme.font(TextRole::Small);
   // Whole rows only: what does not fit is counted.
-  const auto fits = static_cast<std::size_t>(std::max(1, (height() + kSlack_px) / kRow_px));
-  const std::size_t shown_rows = rows_.size() <= fits ? rows_.size() : fits - 1;
-  if (shown_rows < rows_.size()) {
-    painter.setFont(small);
-    painter.setPen(p.dim);
-    painter.drawText(QRect(kMark_px, static_cast<int>(shown_rows) * kRow_px, width(), kRow_px),
-                     Qt::AlignVCenter | Qt::AlignLeft,
-                     tr("and %1 more").arg(rows_.size() - shown_rows));
-  }
-  for (std::size_t i = 0; i < shown_rows; ++i) {
-    const Row& row = rows_[i];
-    const int y = static_cast<int>(i) * kRow_px;
-    paintMark(painter, QRectF(0, y, kMark_px - 4, kRow_px), row.mark);
-    const int detail =
-        QFontMetrics(small).horizontalAdvance(row.detail) + 4;  // rounding must not elide
-    const int shown = std::min(detail, width() * 3 / 5);
-    painter.setFont(small);
-    painter.setPen(row.mark == Mark::Attention && row.level == AgeLevel::Fresh
-                       ? p.caution
-                       : ui_.theme.ageColor(row.level));
-    painter.drawText(QRect(width() - shown, y, shown, kRow_px), Qt::AlignVCenter | Qt::AlignRight,
-                     QFontMetrics(small).elidedText(row.detail, Qt::ElideRight, shown));
-    painter.setFont(body);
-    painter.setPen(p.text);
-    const int room = width() - kMark_px - shown - 8;
-    painter.drawText(QRect(kMark_px, y, room, kRow_px), Qt::AlignVCenter | Qt::AlignLeft,
-                     QFontMetrics(body).elidedText(row.name, Qt::ElideRight, room));
+  int y = 0;
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const bool last = i + 1 == rows_.size();
+    const int needs = rowHeight(i, width()) + (last ? 0 : kRow_px);
+    if (i > 0 && y + needs > height() + kSlack_px) {
+      painter.setFont(ui_.theme.font(TextRole::Small));
+      painter.setPen(ui_.theme.colors().dim);
+      painter.drawText(QRect(kMark_px, y, width(), kRow_px), Qt::AlignVCenter | Qt::AlignLeft,
+                       tr("and %1 more").arg(rows_.size() - i));
+      return;
+    }
+    paintRow(painter, i, y);
+    y += rowHeight(i, width());
   }
 }
 

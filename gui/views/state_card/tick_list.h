@@ -25,14 +25,22 @@ class TickList : public QWidget {
   [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
   [[nodiscard]] QSize sizeHint() const override;
   [[nodiscard]] QSize minimumSizeHint() const override { return {120, sizeHint().height()}; }
+  [[nodiscard]] int heightForWidth(int width) const override;
 
  protected:
   void paintEvent(QPaintEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
 
  private:
-  void paintMark(QPainter& painter, const QRectF& area, Mark mark);
+  /// Where name and detail do not fit beside each other the detail goes below.
+  [[nodiscard]] bool needsTwoLines(const Row& row, int width) const;
+  [[nodiscard]] int rowHeight(std::size_t i, int width) const;
+  void paintRow(QPainter& painter, std::size_t i, int y) const;
+  void paintMark(QPainter& painter, const QRectF& area, Mark mark) const;
   Ui ui_;
   std::vector<Row> rows_;
+  std::vector<bool>
+      tall_;  ///< rows that once needed two lines: they keep them while their name stays
 };
 
 }  // namespace kiln::gui

@@ -108,8 +108,7 @@ void JogPanel::setArmMode(ArmJogMode mode, int joint) {
   arm_->setEnds(joints ? sign + "+" : QString(), joints ? sign + "−" : QString(), {}, {});
   up_->setEnds({}, {}, mode == ArmJogMode::Turn ? QStringLiteral("↻") : QStringLiteral("up"),
                mode == ArmJogMode::Turn ? QStringLiteral("↺") : QStringLiteral("dn"));
-  arm_caption_->setText(joints ? tr("arm joint %1").arg(joint + 1)
-                               : tr("arrows PgUp/Dn · ⇧ turns"));
+  arm_caption_->setText(joints ? tr("arm joint %1").arg(joint + 1) : tr("arrows PgUp/Dn ⇧"));
   restyle();
 }
 

@@ -140,7 +140,8 @@ void TeleopTile::refresh() {
     color = !slow.isEmpty() ? p.caution : hold_.holding() ? p.manual : p.dim;
   }
   state_->setText(text);
-  state_->setStyleSheet(QStringLiteral("color: %1").arg(color.name()));
+  const QString style = QStringLiteral("color: %1").arg(color.name());
+  if (style != state_->styleSheet()) state_->setStyleSheet(style);  // Qt polishes anew each time
   setInfo(why.isEmpty() ? tr("live") : tr("locked"));
 }
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gui/widgets/label_layout.h"
+
 namespace kiln::gui {
 namespace {
 
@@ -18,15 +20,34 @@ QRectF blobRect(const HeatBlob& blob, const QRectF& picture, double pixel) {
 }
 
 /// Text on a dark plate, readable over every colour of the map.
-void paintPlate(QPainter& painter, QRectF box, const QRectF& within, const QString& text,
-                const QColor& color) {
-  box.moveLeft(
-      std::clamp(box.left(), within.left(), std::max(within.left(), within.right() - box.width())));
-  box.moveTop(
-      std::clamp(box.top(), within.top(), std::max(within.top(), within.bottom() - box.height())));
-  painter.fillRect(box, QColor(0, 0, 0, 150));
+void paintPlate(QPainter& painter, const QRectF& box, const QString& text, const QColor& color) {
+  painter.fillRect(box, QColor(0, 0, 0, 165));
   painter.setPen(color);
   painter.drawText(box, Qt::AlignCenter, text);
+}
+
+const QColor kAccepted(Qt::white), kRejected(0xb8, 0xc4, 0xcc);
+
+QString blobText(const HeatBlob& blob) {
+  if (blob.rejection == HeatRejection::None)
+    return ThermalView::tr("%1 °C").arg(toCelsius(blob.peak_k), 0, 'f', 0);
+  const auto why = toString(blob.rejection);
+  return QString::fromUtf8(why.data(), static_cast<int>(why.size()));
+}
+
+void paintBox(QPainter& painter, const QRectF& box, bool accepted) {
+  painter.setBrush(Qt::NoBrush);
+  painter.setPen(QPen(Qt::black, accepted ? 4.0 : 2.6));
+  painter.drawRect(box);
+  painter.setPen(accepted ? QPen(kAccepted, 2.0) : QPen(kRejected, 1.0, Qt::DashLine));
+  painter.drawRect(box);
+}
+
+void paintLeader(QPainter& painter, const QLineF& line, const QColor& color) {
+  painter.setPen(QPen(Qt::black, 3.0));
+  painter.drawLine(line);
+  painter.setPen(QPen(color, 1.2));
+  painter.drawLine(line);
 }
 
 }  // namespace
@@ -110,43 +131,35 @@ void ThermalView::paintBlobs(QPainter& painter, const QRectF& picture) const {
   const auto gap = image_->seq > heat_->image_seq ? image_->seq - heat_->image_seq
                                                   : heat_->image_seq - image_->seq;
   if (gap > kSeqTolerance) return;
+  // The accepted ones first: they get the best places, and are painted last, on top.
+  std::vector<const HeatBlob*> blobs;
+  for (const HeatBlob& blob : heat_->blobs) blobs.push_back(&blob);
+  std::stable_partition(blobs.begin(), blobs.end(), [](const HeatBlob* blob) {
+    return blob->rejection == HeatRejection::None;
+  });
   const double pixel = picture.width() / image_->width;
-  std::vector<QRectF> labelled;  // boxes and labels that a further label must not cover
-  for (const HeatBlob& blob : heat_->blobs) {
-    if (blob.rejection == HeatRejection::None) labelled.push_back(blobRect(blob, picture, pixel));
+  std::vector<LabelWish> wishes;
+  for (const HeatBlob* blob : blobs) {
+    const QFontMetricsF metrics(labelFont(*blob));
+    wishes.push_back({blobRect(*blob, picture, pixel),
+                      {metrics.horizontalAdvance(blobText(*blob)) + 8, metrics.height() + 1}});
   }
-  for (auto blob = heat_->blobs.rbegin(); blob != heat_->blobs.rend();
-       ++blob) {  // the accepted ones on top
-    const bool accepted = blob->rejection == HeatRejection::None;
-    const QString why = QString::fromUtf8(toString(blob->rejection).data(),
-                                          static_cast<int>(toString(blob->rejection).size()));
-    paintBlob(painter, picture, *blob,
-              accepted ? tr("%1 °C").arg(toCelsius(blob->peak_k), 0, 'f', 0) : why, labelled);
+  const auto places = placeLabels(wishes, picture);
+  for (std::size_t i = blobs.size(); i-- > 0;)
+    paintBox(painter, wishes[i].target, blobs[i]->rejection == HeatRejection::None);
+  for (std::size_t i = blobs.size(); i-- > 0;) {
+    if (!places[i]) continue;  // no room is left: the list beside the picture counts it
+    const QColor color = blobs[i]->rejection == HeatRejection::None ? kAccepted : kRejected;
+    if (places[i]->leader) paintLeader(painter, *places[i]->leader, color);
+    painter.setFont(labelFont(*blobs[i]));
+    paintPlate(painter, places[i]->plate, blobText(*blobs[i]), color);
   }
 }
 
-void ThermalView::paintBlob(QPainter& painter, const QRectF& picture, const HeatBlob& blob,
-                            const QString& label, std::vector<QRectF>& labelled) const {
-  const bool accepted = blob.rejection == HeatRejection::None;
-  const QRectF box = blobRect(blob, picture, picture.width() / image_->width);
-  painter.setBrush(Qt::NoBrush);
-  painter.setPen(QPen(Qt::black, accepted ? 4.0 : 2.6));
-  painter.drawRect(box);
-  const QColor line = accepted ? QColor(Qt::white) : QColor(0xb8, 0xc4, 0xcc);
-  painter.setPen(QPen(line, accepted ? 2.0 : 1.0, accepted ? Qt::SolidLine : Qt::DashLine));
-  painter.drawRect(box);
+QFont ThermalView::labelFont(const HeatBlob& blob) const {
   QFont font = ui_.theme.font(TextRole::Small);
-  font.setBold(accepted);
-  painter.setFont(font);
-  const QFontMetricsF metrics(font);
-  QRectF plate(box.left(), box.top() - metrics.height() - 3, metrics.horizontalAdvance(label) + 8,
-               metrics.height() + 1);
-  if (plate.top() < picture.top()) plate.moveTop(box.bottom() + 3);
-  const bool covers = std::any_of(labelled.begin(), labelled.end(),
-                                  [&](const QRectF& other) { return other.intersects(plate); });
-  if (covers && !accepted) return;  // the list beside the picture counts it
-  labelled.push_back(plate);
-  paintPlate(painter, plate, picture, label, line);
+  font.setBold(blob.rejection == HeatRejection::None);
+  return font;
 }
 
 void ThermalView::paintBar(QPainter& painter, const QRectF& picture) const {
@@ -197,9 +210,11 @@ void ThermalView::paintReading(QPainter& painter, const QRectF& picture) const {
   if (reading.isEmpty()) return;
   const QFontMetricsF metrics(ui_.theme.font(TextRole::Small));
   painter.setFont(ui_.theme.font(TextRole::Small));
-  const QRectF plate(mouse_->x() + 12, mouse_->y() + 10, metrics.horizontalAdvance(reading) + 10,
-                     metrics.height() + 3);
-  paintPlate(painter, plate, picture, reading, Qt::white);
+  QRectF plate(mouse_->x() + 12, mouse_->y() + 10, metrics.horizontalAdvance(reading) + 10,
+               metrics.height() + 3);
+  plate.moveRight(std::min(plate.right(), picture.right()));
+  plate.moveBottom(std::min(plate.bottom(), picture.bottom()));
+  paintPlate(painter, plate, reading, Qt::white);
 }
 
 void ThermalView::mouseMoveEvent(QMouseEvent* event) {

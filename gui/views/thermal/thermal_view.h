@@ -45,8 +45,7 @@ class ThermalView : public QWidget {
   [[nodiscard]] int barText() const;
   void recolor();
   void paintBlobs(QPainter& painter, const QRectF& picture) const;
-  void paintBlob(QPainter& painter, const QRectF& picture, const HeatBlob& blob,
-                 const QString& label, std::vector<QRectF>& labelled) const;
+  [[nodiscard]] QFont labelFont(const HeatBlob& blob) const;
   void paintBar(QPainter& painter, const QRectF& picture) const;
   void paintNotice(QPainter& painter, const QRectF& picture) const;
   void paintReading(QPainter& painter, const QRectF& picture) const;

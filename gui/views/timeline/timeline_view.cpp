@@ -8,12 +8,13 @@
 #include <cmath>
 #include <vector>
 
+#include "gui/views/timeline/command_lane.h"
+
 namespace kiln::gui {
 
 namespace {
 constexpr double kLabel_px = 92.0;
 constexpr double kRight_px = 54.0;
-constexpr double kMarkRoom_px = 8.0;
 constexpr double kAxis_px = 18.0;
 constexpr double kZoomStep = 1.3;
 constexpr double kMinSpan_s = 20.0;
@@ -57,7 +58,8 @@ void TimelineView::paintEvent(QPaintEvent*) {
   const char* titles[] = {"State", "Commands", "Link ms", "Peak °C", "Arm force N"};
   for (int i = 0; i < 5; ++i) paintRowFrame(painter, {tr(titles[i]), row(i)});
   paintStates(painter, row(0));
-  paintCommands(painter, row(1));
+  paintCommandLane(painter, row(1), ui_.theme, models_.commands.commands(),
+                   [this](Stamp t) { return xOf(t); });
   paintLink(painter, row(2));
   paintCurve(
       painter, row(3),
@@ -108,48 +110,6 @@ void TimelineView::paintStates(QPainter& painter, const QRectF& area) const {
       painter.drawText(text, Qt::AlignVCenter | Qt::AlignLeft,
                        QFontMetricsF(font).elidedText(label, Qt::ElideRight, text.width()));
     }
-  }
-  painter.restore();
-}
-
-void TimelineView::paintCommands(QPainter& painter, const QRectF& area) const {
-  const Palette& p = ui_.theme.colors();
-  const QFont font = ui_.theme.font(TextRole::Small);
-  painter.setFont(font);
-  painter.save();
-  painter.setClipRect(area.adjusted(-8, 0, kRight_px, 0));
-  double free_until = 1e9;  // marks and texts of newer commands begin here
-  const auto& commands = models_.commands.commands();
-  for (auto it = commands.rbegin(); it != commands.rend(); ++it) {
-    const TrackedCommand& command = *it;
-    const double x = xOf(command.sent);
-    if (x < area.left() - 4 || x > area.right() + 4) continue;
-    const QColor color = command.bad() ? p.caution : command.open() ? p.dim : p.text;
-    const QPointF c(x, area.center().y());
-    painter.setPen(QPen(color, 1.6));
-    if (command.bad()) {  // a cross: not only the colour tells
-      painter.drawLine(c + QPointF(-3.5, -3.5), c + QPointF(3.5, 3.5));
-      painter.drawLine(c + QPointF(-3.5, 3.5), c + QPointF(3.5, -3.5));
-    } else {
-      painter.setBrush(command.open() ? Qt::NoBrush : QBrush(color));
-      painter.drawEllipse(c, 3.2, 3.2);
-      painter.setBrush(Qt::NoBrush);
-    }
-    const QString text =
-        command.phase == CommandPhase::Done || command.phase == CommandPhase::Accepted
-            ? command.label
-            : command.label + QStringLiteral(" · ") + toText(command.phase);
-    const double w = QFontMetricsF(font).horizontalAdvance(text);
-    // The newest text wins where two would overlap: it goes to the left of the mark near the right
-    // edge.
-    const bool left = x + 8 + w > area.right() + kRight_px - 4;
-    const QRectF box(left ? x - 8 - w : x + 8, area.top(), w + 1, area.height());
-    const bool fits = box.right() < free_until && box.left() >= area.left();
-    free_until = std::min(free_until, x - kMarkRoom_px);
-    if (!fits) continue;
-    painter.setPen(color);
-    painter.drawText(box, Qt::AlignVCenter | Qt::AlignLeft, text);
-    free_until = std::min(free_until, box.left() - kMarkRoom_px);
   }
   painter.restore();
 }

@@ -39,7 +39,6 @@ class TimelineView : public QWidget {
   [[nodiscard]] Stamp endStamp() const;
   void paintRowFrame(QPainter& painter, const Row& row) const;
   void paintStates(QPainter& painter, const QRectF& area) const;
-  void paintCommands(QPainter& painter, const QRectF& area) const;
   void paintLink(QPainter& painter, const QRectF& area) const;
   struct Curve {
     const TrendModel::Series& series;

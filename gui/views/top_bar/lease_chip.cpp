@@ -1,14 +1,15 @@
 #include "gui/views/top_bar/lease_chip.h"
 
-#include <QFontMetrics>
 #include <QHBoxLayout>
 #include <QPainter>
+
+#include "gui/widgets/fitted_text.h"
 
 namespace kiln::gui {
 
 namespace {
-constexpr int kText_px = 124;
-constexpr int kHeight_px = 30;
+constexpr int kText_px = 128, kButton_px = 88;
+constexpr int kHeight_px = 36;
 }  // namespace
 
 LeaseChip::LeaseChip(const Ui& ui, LeaseModel& lease, QWidget* parent)
@@ -16,8 +17,8 @@ LeaseChip::LeaseChip(const Ui& ui, LeaseModel& lease, QWidget* parent)
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(kText_px, 0, 0, 0);
   row->addWidget(button_);
-  button_->setFixedSize(84, kHeight_px);
-  setFixedSize(kText_px + 84, kHeight_px);
+  button_->setFixedSize(kButton_px, kHeight_px);
+  setFixedSize(kText_px + kButton_px, kHeight_px);
   connect(button_, &QAbstractButton::clicked, this, &LeaseChip::act);
   connect(&lease_, &Model::changed, this, &LeaseChip::refresh);
   connect(&ui_.theme, &Theme::changed, this, qOverload<>(&QWidget::update));
@@ -90,13 +91,12 @@ void LeaseChip::paintEvent(QPaintEvent*) {
     painter.drawPie(dot, 90 * 16, 180 * 16);
   }
   painter.setPen(holder == LeaseHolder::Unknown ? p.faint : p.text);
-  painter.setFont(ui_.theme.font(TextRole::Small));
-  const QRect area(24, 0, kText_px - 26, height());
-  const QFontMetrics metrics = painter.fontMetrics();
+  const QFont small = ui_.theme.font(TextRole::Small);
+  const QRect area(24, 0, kText_px - 28, height());
+  FittedText words = fitText(text(), {small}, area.width(), 2);
   // The mark says "somebody else" already: a long name goes before the words about it.
-  const QString shown = metrics.horizontalAdvance(text()) <= area.width() ? text() : shortText();
-  painter.drawText(area, Qt::AlignLeft | Qt::AlignVCenter,
-                   metrics.elidedText(shown, Qt::ElideRight, area.width()));
+  if (!words.whole) words = fitText(shortText(), {small}, area.width(), 2);
+  paintFitted(painter, area, Qt::AlignLeft | Qt::AlignVCenter, words);
 }
 
 }  // namespace kiln::gui

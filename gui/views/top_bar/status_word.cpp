@@ -4,12 +4,14 @@
 #include <QPainter>
 #include <QPainterPath>
 
+#include "gui/widgets/fitted_text.h"
 #include "gui/widgets/hatch.h"
 
 namespace kiln::gui {
 
 namespace {
 constexpr double kGap_px = 12.0;
+constexpr int kNarrow_px = 520;  // a narrower block keeps its room for the reason
 QString fromView(std::string_view text) {
   return QString::fromUtf8(text.data(), static_cast<int>(text.size()));
 }
@@ -82,7 +84,8 @@ double StatusBlock::paintChip(QPainter& painter, double x) {
   const RobotStatus* status = models_.status.status();
   if (!status) return x;
   const Environment environment = status->environment;
-  const QString text = environment == Environment::Sim      ? tr("SIMULATOR")
+  const QString text = environment == Environment::Sim
+                           ? (width() < kNarrow_px ? tr("SIM") : tr("SIMULATOR"))
                        : environment == Environment::Replay ? tr("REPLAY")
                                                             : tr("LIVE");
   const QColor color = environment == Environment::Sim      ? p.sim
@@ -117,14 +120,13 @@ void StatusBlock::paintEvent(QPaintEvent*) {
   painter.setPen(wordColor());
   painter.drawText(QRectF(x, 0, width() - x, height()), Qt::AlignVCenter | Qt::AlignLeft, word());
   x += QFontMetricsF(large).horizontalAdvance(word()) + kGap_px;
-  const QFont body = ui_.theme.font(TextRole::Body);
-  painter.setFont(body);
   painter.setPen(ui_.theme.colors().text);
-  const double room = width() - x - 6;
   const QString text = reason();
   setToolTip(text);
-  painter.drawText(QRectF(x, 2, room, height()), Qt::AlignVCenter | Qt::AlignLeft,
-                   QFontMetricsF(body).elidedText(text, Qt::ElideRight, room));
+  const QFont body = ui_.theme.font(TextRole::Body), small = ui_.theme.font(TextRole::Small);
+  const int room = static_cast<int>(width() - x - 6);
+  paintFitted(painter, QRectF(x, 1, room, height()), Qt::AlignVCenter | Qt::AlignLeft,
+              fitText(text, {body, small}, room, 2));
 }
 
 }  // namespace kiln::gui

@@ -13,7 +13,8 @@ namespace kiln::gui {
 
 namespace {
 constexpr int kHeight_px = 48;
-constexpr int kNarrow_px = 1280;
+constexpr int kNarrow_px = 1280, kLeast_px = 1264;
+constexpr int kRoomForNote_px = 1560;
 constexpr double kBatteryEmpty_v = 24.0;
 constexpr double kBatteryLow_v = 26.0;
 constexpr double kBatteryFull_v = 29.6;
@@ -47,8 +48,10 @@ TopBar::TopBar(const Ui& ui, StationModels& models, QWidget* parent)
       clock_(new Figure(ui, tr("Mission clock"), QStringLiteral("88:88 / 88:88"), this)),
       score_(new Figure(ui, tr("Score"), QStringLiteral("8.88"), this)),
       clear_(new HoldButton(ui, tr("Clear stop"), 1.0, this)),
+      stop_note_(new StopNote(ui, models.stop, this)),
       stop_(new StopButton(ui, models.stop, this)) {
   setFixedHeight(kHeight_px);
+  setMinimumWidth(kLeast_px);  // a note that comes must not widen the window
   clock_->setRole(TextRole::Strong);
   score_->setRole(TextRole::Strong);
   clear_->setSubtext(tr("hold 1 s"));
@@ -61,7 +64,7 @@ TopBar::TopBar(const Ui& ui, StationModels& models, QWidget* parent)
        {static_cast<QWidget*>(lease_), static_cast<QWidget*>(link_), static_cast<QWidget*>(age_),
         static_cast<QWidget*>(battery_), static_cast<QWidget*>(water_),
         static_cast<QWidget*>(clock_), static_cast<QWidget*>(score_), static_cast<QWidget*>(clear_),
-        static_cast<QWidget*>(stop_)}) {
+        static_cast<QWidget*>(stop_note_), static_cast<QWidget*>(stop_)}) {
     row->addWidget(widget);
   }
   connect(&models_, &StationModels::aged, lease_, &LeaseChip::refresh);
@@ -85,6 +88,8 @@ void TopBar::refresh() {
   clear_->setToolTip(models_.lease.mine()
                          ? tr("Clears the latch. Nothing moves by itself afterwards.")
                          : tr("Clearing a stop needs the lease."));
+  stop_note_->refresh();
+  arrange();
   const RobotStatus* status = models_.status.status();
   if (!status) {
     for (Figure* figure : {battery_, water_, clock_, score_})
@@ -135,10 +140,20 @@ void TopBar::refreshLink() {
   age_->set(age_s < 0 ? QStringLiteral("–") : ageText(age_s), models_.status.ageLevel());
 }
 
+void TopBar::arrange() {
+  const bool wide = width() >= kNarrow_px;
+  const bool noted = !stop_note_->text().isEmpty(), cleared = clear_->isHidden();
+  const bool roomy = width() >= kRoomForNote_px || !noted;
+  const bool all = width() >= kRoomForNote_px || (wide && !noted && cleared);
+  age_->setVisible(all);
+  score_->setVisible(all);
+  battery_->setVisible(roomy);
+  water_->setVisible(roomy);
+}
+
 void TopBar::resizeEvent(QResizeEvent* event) {
   QWidget::resizeEvent(event);
-  age_->setVisible(width() >= kNarrow_px);
-  score_->setVisible(width() >= kNarrow_px);
+  arrange();
 }
 
 void TopBar::paintEvent(QPaintEvent*) {

@@ -11,6 +11,7 @@ namespace kiln::gui {
 class LeaseChip;
 class StatusBlock;
 class StopButton;
+class StopNote;
 
 /// 48 px at the top of the window, never covered: who, what state, who commands, link, energy,
 /// water, clock, STOP.
@@ -20,6 +21,7 @@ class TopBar : public QWidget {
   TopBar(const Ui& ui, StationModels& models, QWidget* parent = nullptr);
   [[nodiscard]] LeaseChip* leaseChip() const { return lease_; }
   [[nodiscard]] StopButton* stopButton() const { return stop_; }
+  [[nodiscard]] StopNote* stopNote() const { return stop_note_; }
   [[nodiscard]] HoldButton* clearButton() const { return clear_; }
   [[nodiscard]] StatusBlock* statusBlock() const { return status_; }
 
@@ -30,12 +32,15 @@ class TopBar : public QWidget {
  private:
   void refresh();
   void refreshLink();
+  /// Narrow bars leave out what matters least; a lost link needs room to say what STOP does.
+  void arrange();
   Ui ui_;
   StationModels& models_;
   StatusBlock* status_;
   LeaseChip* lease_;
   Figure *link_, *age_, *battery_, *water_, *clock_, *score_;
   HoldButton* clear_;
+  StopNote* stop_note_;
   StopButton* stop_;
 };
 

@@ -73,6 +73,30 @@ struct Desk {
       {theme, link.clock()}, models, {geometry(), !wanted.flat && openGlAvailable(), nullptr}};
 };
 
+/// What an operator sees when it is not going well.
+void showStates(Desk& desk, const Wanted& wanted) {
+  desk.models.commands.send(SetMode{Mode::Teleop}, "teleop");
+  desk.pass(1.0);
+  shot(desk.window, wanted, "6-teleop");
+  desk.models.stop.press();
+  desk.pass(1.0);
+  shot(desk.window, wanted, "7-stopped");
+  desk.models.lease.request();
+  desk.pass(0.5);
+  desk.models.stop.clear();
+  desk.pass(1.0);
+  desk.window.forcedJump().arm();
+  desk.pass(0.5);
+  shot(desk.window, wanted, "8-jump-armed");
+  desk.window.forcedJump().cancel();
+  desk.link.setSilent(true);
+  desk.pass(8.0);
+  shot(desk.window, wanted, "9-no-link");
+  desk.models.stop.press();
+  desk.pass(1.0);
+  shot(desk.window, wanted, "10-stop-kept");
+}
+
 void showFake(const Wanted& wanted) {
   Desk desk(wanted);
   desk.link.robot().setChecksFail(true);
@@ -102,6 +126,7 @@ void showFake(const Wanted& wanted) {
   desk.window.sceneTile()->canvas().setCameraMode(OrbitCamera::Mode::Follow);
   desk.pass(1.0);
   shot(desk.window, wanted, "5-nudge");
+  showStates(desk, wanted);
 }
 
 int showReplay(const Wanted& wanted) {

@@ -76,5 +76,46 @@ TEST_F(TopBarTest, AStopLaneWithoutAPeerSaysSo) {
   EXPECT_EQ(bar.leaseChip()->text(), "Lease unknown");
 }
 
+TEST_F(TopBarTest, WithoutALinkStopIsStillPressedKeptAndSaysWhatToDo) {
+  EXPECT_TRUE(bar.stopNote()->isHidden());
+  station.link.setSilent(true);
+  station.pass(4.0);
+  ASSERT_TRUE(bar.stopNote()->isVisible());
+  EXPECT_TRUE(bar.stopNote()->text().contains("red button"))
+      << bar.stopNote()->text().toStdString();
+  QTest::mousePress(bar.stopButton(), Qt::LeftButton);
+  station.settle();
+  EXPECT_EQ(bar.stopButton()->caption(), "kept, no link");
+  EXPECT_TRUE(bar.stopNote()->text().contains("NOT got it"))
+      << bar.stopNote()->text().toStdString();
+  station.link.setSilent(false);
+  station.pass(1.0);
+  EXPECT_TRUE(station.models.stop.latched()) << "the kept press went out with the link";
+  EXPECT_TRUE(bar.stopNote()->isHidden());
+}
+
+TEST_F(TopBarTest, TheStopKeyIsRedAndTheNoteWholeAtEveryWidth) {
+  station.link.setSilent(true);
+  station.pass(4.0);
+  const auto reds = [&] {
+    const QImage image = bar.stopButton()->grab().toImage();
+    int count = 0;
+    for (int y = 0; y < image.height(); ++y)
+      for (int x = 0; x < image.width(); ++x) {
+        const QColor c = image.pixelColor(x, y);
+        if (c.red() > 120 && c.green() < 60 && c.blue() < 70) ++count;
+      }
+    return count;
+  };
+  for (const int width : {1272, 1358, 1672, 1912}) {
+    bar.resize(width, 48);
+    station.pass(0.2);
+    EXPECT_GT(reds(), 500) << width;
+    EXPECT_GE(bar.stopNote()->width(), bar.stopNote()->sizeHint().width()) << width;
+    EXPECT_LE(bar.stopButton()->geometry().right(), width) << width;
+    EXPECT_TRUE(bar.leaseChip()->isVisible() && bar.statusBlock()->width() >= 330) << width;
+  }
+}
+
 }  // namespace
 }  // namespace kiln::gui
