@@ -69,6 +69,13 @@ void RayScene::addArena(const TrueArena& arena) {
   }
 }
 
+std::optional<std::size_t> RayScene::box(const Raycaster::Hit& hit) const {
+  // They were added one after another.
+  if (boxes_.empty() || hit.instance < boxes_.front() || hit.instance > boxes_.back())
+    return std::nullopt;
+  return hit.instance - boxes_.front();
+}
+
 void RayScene::addFirePlace(const TrueFirePlace& place) {
   for (const SolidBox& b : place.boxes) {
     note(rays_.addBox(b.size_m, b.X_map_box, number(b.material), arenaMask(b.material)),

@@ -43,6 +43,8 @@ class RayScene {
   [[nodiscard]] static Material material(const Raycaster::Hit& hit) {
     return static_cast<Material>(hit.material);
   }
+  /// Which of TrueArena::boxes was hit, if any.
+  [[nodiscard]] std::optional<std::size_t> box(const Raycaster::Hit& hit) const;
   /// Of a surface, apart from mirror images; degrees Celsius.
   [[nodiscard]] double temperature(const Raycaster::Hit& hit) const {
     return temperature_c_[hit.instance];

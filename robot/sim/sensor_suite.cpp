@@ -5,13 +5,14 @@
 namespace kiln::sim {
 
 SensorSuite::SensorSuite(const WorldConfig& config, const TrueArena& arena,
-                         const RobotGeometry& robot, std::uint64_t seed, bool render_colour)
+                         const RobotGeometry& robot, const WetBoards& wet, std::uint64_t seed,
+                         bool render_colour)
     : config_(config),
       arena_(arena),
       robot_(robot),
       scene_(config, arena, robot, false),
       lidar_(config, arena, robot, seed),
-      thermal_(config.thermal, robot, arena.robot, seed),
+      thermal_(config.thermal, robot, arena.robot, wet, seed),
       render_colour_(render_colour) {}
 
 void SensorSuite::request(const SensorRequest& request) {

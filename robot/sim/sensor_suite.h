@@ -16,7 +16,7 @@ namespace kiln::sim {
 class SensorSuite {
  public:
   SensorSuite(const WorldConfig& config, const TrueArena& arena, const RobotGeometry& robot,
-              std::uint64_t seed, bool render_colour);
+              const WetBoards& wet, std::uint64_t seed, bool render_colour);
 
   void request(const SensorRequest& request);
   /// After each physics step. @param drops called only when a picture needs them.
@@ -26,6 +26,10 @@ class SensorSuite {
   [[nodiscard]] std::optional<SceneState> takeColourDue();
   /// The scene for the water, not older than one LiDAR chunk.
   [[nodiscard]] const Raycaster& rays(const SceneState& state);
+  /// Which of TrueArena::boxes a ray of rays() hit, if any.
+  [[nodiscard]] std::optional<std::size_t> boxHit(const Raycaster::Hit& hit) const {
+    return scene_.box(hit);
+  }
   [[nodiscard]] const ThermalSensor& thermal() const { return thermal_; }
 
  private:

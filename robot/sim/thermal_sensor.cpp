@@ -17,10 +17,11 @@ constexpr float kMotorC = 33.0F;  // joints of a working arm
 }  // namespace
 
 ThermalSensor::ThermalSensor(const ThermalConfig& config, const RobotGeometry& robot,
-                             const TrueRobot& truth, std::uint64_t seed)
+                             const TrueRobot& truth, const WetBoards& wet, std::uint64_t seed)
     : config_(config),
       robot_(robot),
       X_flange_thermal_(truth.X_flange_thermal),
+      wet_(wet),
       camera_(CameraModel::fromHorizontalFov(kWidth, kHeight, config.hfov_deg * M_PI / 180.0)),
       noise_(seed, "thermal") {
   Random random(seed, "thermal fixed");
@@ -67,7 +68,9 @@ float ThermalSensor::surface(const Raycaster::Ray& ray, const Raycaster::Hit& hi
   if (m == Material::Plate || m == Material::Reflection) return t;
   // Walls and floor are never quite even: half a kelvin over metres.
   const Eigen::Vector3f p = ray.origin + hit.range * ray.direction;
-  return t + 0.3F * std::sin(1.1F * p.x() + 0.7F * p.z()) +
+  const auto box = wet_.empty() ? std::nullopt : scene.box(hit);
+  const float wet = box ? static_cast<float>(wet_.coolness(*box, p.cast<double>(), now_)) : 0.0F;
+  return t - wet + 0.3F * std::sin(1.1F * p.x() + 0.7F * p.z()) +
          0.2F * std::sin(1.7F * p.y() - 0.9F * p.x());
 }
 
@@ -98,6 +101,7 @@ void ThermalSensor::mirrorOnAcrylic(std::span<const Raycaster::Ray> rays,
 }
 
 void ThermalSensor::castPixels(const SceneState& state, const RayScene& scene) {
+  now_ = state.stamp;
   const Eigen::Isometry3d X = X_map_thermal(state);
   const Eigen::Matrix3f R = X.linear().cast<float>();
   const Eigen::Vector3f origin = X.translation().cast<float>();

@@ -5,6 +5,7 @@
 #include "common/model/sensor.h"
 #include "robot/sim/random.h"
 #include "robot/sim/ray_scene.h"
+#include "robot/sim/wet_boards.h"
 
 namespace kiln::sim {
 
@@ -13,8 +14,9 @@ namespace kiln::sim {
 /// Confined to one thread.
 class ThermalSensor {
  public:
+  /// @param wet boards that show water; kept by the caller.
   ThermalSensor(const ThermalConfig& config, const RobotGeometry& robot, const TrueRobot& truth,
-                std::uint64_t seed);
+                const WetBoards& wet, std::uint64_t seed);
 
   /// Time of the next frame after `now`.
   [[nodiscard]] Stamp nextFrame(Stamp now) const;
@@ -37,6 +39,8 @@ class ThermalSensor {
   ThermalConfig config_;
   RobotGeometry robot_;
   Eigen::Isometry3d X_flange_thermal_;
+  const WetBoards& wet_;
+  Stamp now_;
   CameraModel camera_;
   Random noise_;
   std::vector<float> fixed_pattern_k_, celsius_, row_;

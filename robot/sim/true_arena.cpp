@@ -156,6 +156,13 @@ TrueArena TrueArena::draw(const WorldConfig& config, const ArenaMap& nominal,
                            d.center.pose(), vector3(d.size_m), d.solid,
                            random.uniform(d.min_c, d.max_c)});
   }
+  for (const WarmBoardConfig& board : config.warm_boards) {
+    for (SolidBox& box : arena.boxes) {
+      if (box.name == board.box)
+        box.temperature_c =
+            Random(seed, "warm board " + board.box).uniform(board.min_c, board.max_c);
+    }
+  }
   if (!nominal.fire_places.empty())
     arena.burning = Random(seed, "burning").bits() % nominal.fire_places.size();
   for (std::size_t i = 0; i < nominal.fire_places.size(); ++i) {

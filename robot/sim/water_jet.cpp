@@ -46,6 +46,7 @@ bool WaterJet::throughOpening(const TrueFirePlace& place, const Eigen::Vector3d&
 }
 
 void WaterJet::step(double step_s, const Raycaster& scene) {
+  landings_.clear();
   if (drops_.empty()) return;
   rays_.resize(drops_.size());
   hits_.resize(drops_.size());
@@ -66,6 +67,10 @@ void WaterJet::step(double step_s, const Raycaster& scene) {
       const bool stopped_before = hits_[i].valid() && hits_[i].range < share * rays_[i].max_range;
       if (!stopped_before) delivered_l_[place] += config_.drop_ml * 1e-3;
       return true;
+    }
+    if (hits_[i].valid()) {
+      const Raycaster::Ray& ray = rays_[i];
+      landings_.push_back({hits_[i], (ray.origin + hits_[i].range * ray.direction).cast<double>()});
     }
     return hits_[i].valid() || next[i].z() < kLost_m || drops_[i].age_s > config_.max_flight_s;
   };

@@ -22,6 +22,12 @@ class WaterJet {
   void emit(double litres, double flow_fraction, const Eigen::Isometry3d& X_map_nozzle,
             const Eigen::Vector3d& v_nozzle);
   void step(double step_s, const Raycaster& scene);
+  /// Where drops of the last step met something, the openings' inside apart.
+  struct Landing {
+    Raycaster::Hit on;
+    Eigen::Vector3d p_map;
+  };
+  [[nodiscard]] const std::vector<Landing>& landings() const { return landings_; }
   [[nodiscard]] const std::vector<double>& deliveredLitres() const { return delivered_l_; }
   [[nodiscard]] double emittedLitres() const { return emitted_l_; }
   [[nodiscard]] const JetProfile& profile() const { return profile_; }
@@ -44,6 +50,7 @@ class WaterJet {
   const std::vector<TrueFirePlace>& places_;
   Random random_;
   std::vector<Drop> drops_;
+  std::vector<Landing> landings_;
   JetProfile profile_;
   std::vector<double> delivered_l_;
   double emitted_l_ = 0.0, waiting_l_ = 0.0;

@@ -1,5 +1,6 @@
 #include "robot/sim/world.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/config/resources.h"
@@ -17,6 +18,7 @@
 #include "robot/sim/pump_device.h"
 #include "robot/sim/sensor_suite.h"
 #include "robot/sim/water_jet.h"
+#include "robot/sim/wet_boards.h"
 
 namespace kiln::sim {
 namespace {
@@ -39,9 +41,10 @@ struct World::Impl {
         base(c.base, r, arena.robot),
         pumps(c.water, s),
         jet(c.water, arena.fire_places, s),
+        wet(c.warm_boards, arena),
         collisions(c.collision_force_n),
         disturbances(arena, r, s),
-        sensors(c, arena, r, s, options.render_colour),
+        sensors(c, arena, r, wet, s, options.render_colour),
         obstacle(robot) {}
 
   void carryToStart();
@@ -70,6 +73,7 @@ struct World::Impl {
   BaseDevice base;
   PumpDevice pumps;
   WaterJet jet;
+  WetBoards wet;
   CollisionMonitor collisions;
   Disturbances disturbances;
   SensorSuite sensors;
@@ -140,7 +144,12 @@ void World::Impl::stepWater() {
     jet.emit(litres, pumps.flowFraction(), X_map_nozzle,
              physics->flangePointVelocity(X_map_nozzle.translation()));
   }
-  if (jet.flying()) jet.step(dt, sensors.rays(scene()));
+  if (!jet.flying()) return;
+  jet.step(dt, sensors.rays(scene()));
+  if (wet.empty()) return;
+  for (const WaterJet::Landing& landing : jet.landings()) {
+    if (const auto box = sensors.boxHit(landing.on); box) wet.land(*box, landing.p_map, now);
+  }
 }
 
 void World::Impl::stepOnce() {
@@ -167,6 +176,12 @@ Result<std::unique_ptr<World>> World::create(const WorldConfig& config, std::uin
   if (!map) return tl::make_unexpected(map.error());
   if (auto ok = map->approach.validate(); !ok) {
     return makeError(ErrorCode::InvalidInput, "{}: {}", config.arena, ok.error().message);
+  }
+  for (const WarmBoardConfig& board : config.warm_boards) {
+    const auto named = [&](const BoxConfig& wall) { return wall.name == board.box; };
+    if (std::none_of(map->walls.begin(), map->walls.end(), named))
+      return makeError(ErrorCode::InvalidInput, "warm_boards: {} has no wall '{}'", config.arena,
+                       board.box);
   }
   const auto robot = loadResource<RobotGeometry>(config.robot);
   if (!robot) return tl::make_unexpected(robot.error());

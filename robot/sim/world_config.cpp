@@ -21,6 +21,17 @@ void DistractorConfig::visit(ConfigArchive& a) {
   a.field("solid", solid, "false: a warm patch that only the thermal camera sees");
 }
 
+void WarmBoardConfig::visit(ConfigArchive& a) {
+  a.field("box", box, "name of a wall of the arena");
+  a.field("min_c", min_c, "degC", -20, 200, "coolest by seed");
+  a.field("max_c", max_c, "degC", -20, 200, "warmest by seed");
+  a.field("water_c", water_c, "degC", 0, 100, "the water that lands on it");
+  a.field("share", share, "", 0, 1, "of the way to the water's temperature, by one drop");
+  a.field("splash_m", splash_m, "m", 0.001, 0.1, "radius that a drop wets");
+  a.field("warm_again_s", warm_again_s, "s", 0.1, 1e4, "time constant");
+  a.field("cell_m", cell_m, "m", 0.002, 0.1, "of the grid that keeps the wetness");
+}
+
 void WorldConfig::visit(ConfigArchive& a) {
   a.field("name", name, "for the operator");
   a.field("arena", arena, "nominal arena, below resources/");
@@ -40,6 +51,7 @@ void WorldConfig::visit(ConfigArchive& a) {
   a.field("collision_force_n", collision_force_n, "N", 0, 1e3,
           "contacts above this count as collisions");
   a.list("distractors", distractors, "warm things that are not the fire");
+  a.list("warm_boards", warm_boards, "heated walls on which water shows in the infrared");
   a.list("faults", faults, "scripted faults");
 }
 
@@ -51,6 +63,12 @@ Result<void> WorldConfig::validate() const {
     if (d.max_c < d.min_c) {
       return makeError(ErrorCode::InvalidInput, "distractor '{}': max_c {} is below min_c {}",
                        d.name, d.max_c, d.min_c);
+    }
+  }
+  for (const WarmBoardConfig& b : warm_boards) {
+    if (b.max_c < b.min_c) {
+      return makeError(ErrorCode::InvalidInput, "warm board '{}': max_c {} is below min_c {}",
+                       b.box, b.max_c, b.min_c);
     }
   }
   const double steps = device_period_s / physics.step_s;

@@ -144,6 +144,18 @@ struct DistractorConfig {
   void visit(ConfigArchive& a);
 };
 
+/// A wall of the arena that is heated, and on which an infrared camera sees where water landed.
+struct WarmBoardConfig {
+  std::string box;                    ///< name of a wall of the arena
+  double min_c = 45.0, max_c = 50.0;  ///< drawn by seed
+  double water_c = 15.0;
+  double share = 0.004;        ///< of the way to the water's temperature, by one drop
+  double splash_m = 0.008;     ///< radius that a drop wets
+  double warm_again_s = 20.0;  ///< time constant
+  double cell_m = 0.005;
+  void visit(ConfigArchive& a);
+};
+
 /// A scripted fault; the kinds and their numbers: fault_catalog.h.
 struct FaultConfig {
   std::string name;
@@ -173,6 +185,7 @@ struct WorldConfig {
   FireConfig fire;
   double collision_force_n = 5.0;
   std::vector<DistractorConfig> distractors;
+  std::vector<WarmBoardConfig> warm_boards;
   std::vector<FaultConfig> faults;
   void visit(ConfigArchive& a);
   [[nodiscard]] Result<void> validate() const;

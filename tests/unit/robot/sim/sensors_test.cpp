@@ -30,7 +30,8 @@ struct ThermalTest : ::testing::Test {
     return sensor.capture(world.state, *world.scene, false);
   }
   TestScene world;
-  ThermalSensor sensor{world.config.thermal, world.robot, world.arena.robot, 1};
+  WetBoards dry{{}, world.arena};
+  ThermalSensor sensor{world.config.thermal, world.robot, world.arena.robot, dry, 1};
 };
 
 TEST_F(ThermalTest, PlateIsSeenThroughTheOpeningAtItsTrueSize) {
