@@ -7,19 +7,12 @@
 #include <Eigen/Eigenvalues>
 #include <ceres/ceres.h>
 
+#include "robot/perception/calibration/mounting.h"
+
 namespace kiln {
 namespace {
 
 constexpr double kDeg = M_PI / 180.0;
-
-Eigen::Isometry3d poseOf(const double* mount) {
-  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
-  const Eigen::Vector3d turn(mount[0], mount[1], mount[2]);
-  if (turn.norm() > 0.0)
-    X.linear() = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();
-  X.translation() = Eigen::Vector3d(mount[3], mount[4], mount[5]);
-  return X;
-}
 
 /// What the sightings are held against.
 struct Scene {
@@ -35,7 +28,7 @@ struct Scene {
     const Eigen::Vector3d normal =
         Eigen::AngleAxisd(where[3], Eigen::Vector3d::UnitZ()) * normal_base;
     const Eigen::Isometry3d X_camera_plate =
-        (seen.X_base_flange * X_flange_thermal * poseOf(mount)).inverse() *
+        (seen.X_base_flange * X_flange_thermal * mountingError(mount)).inverse() *
         thermal::platePose(p, normal);
     const auto view = thermal::viewPlate(plate, camera, X_camera_plate);
     return view ? std::optional(view->centre_px) : std::nullopt;
@@ -51,16 +44,6 @@ struct Reprojection {
     if (!expected) return false;
     residual[0] = (expected->x() - seen.centre_px.x()) / sigma_px;
     residual[1] = (expected->y() - seen.centre_px.y()) / sigma_px;
-    return true;
-  }
-};
-
-template <int N>
-struct Prior {
-  std::array<double, N> sigma;
-  template <class T>
-  bool operator()(const T* x, T* residual) const {
-    for (std::size_t i = 0; i < N; ++i) residual[i] = x[i] / sigma[i];
     return true;
   }
 };
@@ -152,7 +135,7 @@ Result<ThermalCalibration> ThermalCalibrator::calibrate(std::span<const PlateSig
   if (!summary.IsSolutionUsable())
     return makeError(ErrorCode::Degenerate, "the thermal camera's mounting did not converge: {}",
                      summary.BriefReport());
-  out.flange_thermal.X_parent_sensor = X_flange_thermal * poseOf(mount.data());
+  out.flange_thermal.X_parent_sensor = X_flange_thermal * mountingError(mount.data());
   out.flange_thermal.rms_after = rmsOf(scene, sightings, mount.data(), where.data());
   out.flange_thermal.unit = "px";
   out.flange_thermal.views = out.flange_thermal.measurements = static_cast<int>(sightings.size());

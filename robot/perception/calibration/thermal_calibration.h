@@ -28,7 +28,7 @@ class ThermalCalibrator {
   struct Config {
     thermal::PlateModel plate;
     double hfov_deg = 57.0;
-    double noise_px = 0.3;
+    double noise_px = 0.06;
     double prior_m = 0.03, prior_deg = 2.0;  ///< of the mounting: as it was drawn
     double plate_prior_m = 0.5;              ///< of where the plate is thought to be
     double yaw_prior_deg = 10.0;             ///< of where it looks
