@@ -51,6 +51,53 @@ struct Errors {
   }
 };
 
+/// Of the nozzle, what matters to a jet: where it leaves and in which direction; a turn about the
+/// jet changes nothing.
+struct JetErrors {
+  std::vector<double> before_deg{}, after_deg{}, before_mm{}, after_mm{}, before_hit_mm{},
+      after_hit_mm{}, flow_percent{};
+
+  json add(const json& truth, const PoseConfig& nominal, const NozzleCalibration& found) {
+    const json& drawn = truth.at("perturbations");
+    const Eigen::Isometry3d X_true = poseFrom(drawn.at("X_flange_nozzle"));
+    const json& flow_lpm = drawn.at("pump_full_flow_lpm");
+    const double flow = (flow_lpm[0].get<double>() + flow_lpm[1].get<double>()) /
+                        (2.0 * PumpController::Config{}.flow_lpm);
+    flow_percent.push_back(1e2 * std::abs(found.flow - flow));
+    const auto note = [&](const Eigen::Isometry3d& X, std::vector<double>& deg,
+                          std::vector<double>& mm, std::vector<double>& hit_mm) {
+      constexpr double kStandoff_m = 0.8;
+      const Eigen::Isometry3d off = X_true.inverse() * X;
+      const Eigen::Vector3d axis = off.linear().col(0), p = off.translation();
+      deg.push_back(std::atan2(axis.tail<2>().norm(), axis.x()) / kDeg);
+      mm.push_back(1e3 * p.tail<2>().norm());
+      hit_mm.push_back(1e3 * (p + kStandoff_m * axis).tail<2>().norm());
+    };
+    note(nominal.pose(), before_deg, before_mm, before_hit_mm);
+    note(found.flange_nozzle.X_parent_sensor, after_deg, after_mm, after_hit_mm);
+    return {{"direction_before_deg", before_deg.back()},
+            {"direction_after_deg", after_deg.back()},
+            {"lateral_before_mm", before_mm.back()},
+            {"lateral_after_mm", after_mm.back()},
+            {"at_0.8_m_before_mm", before_hit_mm.back()},
+            {"at_0.8_m_after_mm", after_hit_mm.back()},
+            {"flow_true", flow},
+            {"flow_found", found.flow}};
+  }
+  void append(std::vector<Figure>& figures) const {
+    const auto rows = [&](const std::string& what, const char* unit, const auto& before,
+                          const auto& after) {
+      figures.push_back({what + "_before_median_" + unit, median(before), unit, "", true});
+      figures.push_back({what + "_median_" + unit, median(after), unit, "", true});
+      figures.push_back({what + "_max_" + unit, quantile(after, 1.0), unit, "", true});
+    };
+    rows("nozzle_direction", "deg", before_deg, after_deg);
+    rows("nozzle_lateral", "mm", before_mm, after_mm);
+    rows("nozzle_at_0.8_m", "mm", before_hit_mm, after_hit_mm);
+    figures.push_back({"pump_flow_off_median_percent", median(flow_percent), "%", "", true});
+  }
+};
+
 }  // namespace
 
 Result<EvaluationResult> calibrateSensors(const SweepOptions& options) {
@@ -61,6 +108,7 @@ Result<EvaluationResult> calibrateSensors(const SweepOptions& options) {
   out.name = "calibrate";
   Errors lidar{"lidar", "X_flange_lidar"}, thermal{"thermal", "X_flange_thermal"},
       camera{"operator_camera", "X_base_operatorcamera"};
+  JetErrors nozzle;
   std::vector<double> wall_s, simulated_s;
   json runs = json::array();
   for (int seed = options.first_seed; seed <= options.last_seed; ++seed) {
@@ -76,6 +124,8 @@ Result<EvaluationResult> calibrateSensors(const SweepOptions& options) {
         lidar.add(truth, robot->X_flange_lidar, done->found.lidar.flange_lidar.X_parent_sensor);
     run["thermal"] = thermal.add(truth, robot->X_flange_thermal,
                                  done->found.thermal.flange_thermal.X_parent_sensor);
+    if (done->found.nozzle)
+      run["nozzle"] = nozzle.add(truth, robot->X_flange_nozzle, *done->found.nozzle);
     if (done->found.operator_camera)
       run["operator_camera"] = camera.add(truth, robot->X_base_operatorcamera,
                                           done->found.operator_camera->X_parent_sensor);
@@ -89,7 +139,10 @@ Result<EvaluationResult> calibrateSensors(const SweepOptions& options) {
   }
   lidar.append(out.figures);
   thermal.append(out.figures);
+  nozzle.append(out.figures);
   camera.append(out.figures);
+  out.figures.push_back(
+      {"nozzle_refused", static_cast<double>(runs.size() - nozzle.after_mm.size()), "", "", true});
   out.figures.push_back({"operator_camera_refused",
                          static_cast<double>(runs.size() - camera.after_m.size()), "", "", true});
   out.figures.push_back({"simulated_median_s", median(simulated_s), "s", "", true});

@@ -20,6 +20,7 @@ using nlohmann::json;
 
 constexpr const char* kRobot = "robot_model/bob.yaml";
 constexpr const char* kYard = "config/arena_calibration.yaml";
+constexpr const char* kJet = "config/spray_calibration.yaml";
 constexpr Duration kStep = std::chrono::milliseconds(8);
 
 /// The routine on the devices of a fresh world, as far as the robot sees it.
@@ -33,15 +34,18 @@ Result<Routine> calibrateBy(SimLink& link, ManualClock& clock) {
   if (!robot) return tl::make_unexpected(robot.error());
   auto yard = loadResource<ArenaMap>(kYard);
   if (!yard) return tl::make_unexpected(yard.error());
+  auto jet = loadResource<SprayCalibration>(kJet);
+  if (!jet) return tl::make_unexpected(jet.error());
   clock.advanceTo(link.world().now);
   const auto step = [&]() -> Result<void> {
     clock.advanceBy(kStep);
     return link.advanceTo(clock.now());
   };
-  CalibrationRoutine routine(
-      {}, *robot, *yard,
-      {link.arm(), link.lidar(), link.thermalCamera(), link.operatorCamera(), clock, step});
-  auto found = routine.run();
+  CalibrationRoutineConfig config;
+  config.nozzle.jet = *jet;
+  auto found = calibrateRobot(config, *robot, *yard,
+                              {link.arm(), link.pumps(), link.lidar(), link.thermalCamera(),
+                               link.operatorCamera(), clock, step});
   if (!found) return tl::make_unexpected(found.error());
   return Routine{std::move(*found), toSeconds(clock.now())};
 }
@@ -60,7 +64,7 @@ std::string fingerprint() {
     for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ull;
   };
   for (const char* program : {"kiln-sim", "kiln-eval"}) add(contentOf(siblingProgram(program)));
-  for (const char* resource : {kRobot, kYard, "worlds/calibration.yaml"})
+  for (const char* resource : {kRobot, kYard, kJet, "worlds/calibration.yaml"})
     if (const auto path = resourcePath(resource); path) add(contentOf(*path));
   return fmt::format("{:016x}", hash);
 }

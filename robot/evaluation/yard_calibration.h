@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "robot/evaluation/calibration_routine.h"
+#include "robot/evaluation/calibration/calibration_routine.h"
 
 namespace kiln {
 
