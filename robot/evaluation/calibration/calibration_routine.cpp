@@ -90,8 +90,8 @@ Result<CalibrationResult> calibrateRobot(const CalibrationRoutineConfig& config,
     logger("calibrate")->info("{} at {:.0f} s", what, toSeconds(rig.clock().now()));
   };
   if (auto on = rig.startSensors(); !on) return tl::make_unexpected(on.error());
-  const auto camera = calibrateOperatorCamera(rig, config.camera);
-  const auto scans = collectScans(rig, config.lidar_postures);
+  CameraPart camera(config.camera);
+  const auto scans = collectScans(rig, config.lidar_postures, [&] { camera.look(rig); });
   if (!scans) return tl::make_unexpected(scans.error());
   rig.restLidar();
   const auto lidar = LidarCalibrator(config.lidar).calibrate(*scans, nominal.X_flange_lidar.pose());
@@ -102,7 +102,7 @@ Result<CalibrationResult> calibrateRobot(const CalibrationRoutineConfig& config,
   tell("thermal camera done");
   const auto nozzle = calibrateNozzle(rig, {*scans, *lidar, *thermal}, config.nozzle);
   tell("nozzle done");
-  return summed(nominal, *lidar, *thermal, nozzle, camera);
+  return summed(nominal, *lidar, *thermal, nozzle, camera.calibrate(nominal));
 }
 
 }  // namespace kiln

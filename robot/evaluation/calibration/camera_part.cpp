@@ -1,15 +1,24 @@
 #include "robot/evaluation/calibration/camera_part.h"
 
+#include <utility>
+
 namespace kiln {
 
-Result<Extrinsics> calibrateOperatorCamera(CalibrationRig& rig,
-                                           const CameraCalibrator::Config& config) {
-  const auto picture = rig.takePicture();
-  if (!picture) return tl::make_unexpected(picture.error());
+void CameraPart::look(CalibrationRig& rig) {
+  if (!pictures_) return;
+  auto picture = rig.takePicture();
   const auto q = rig.joints();
-  if (!q) return tl::make_unexpected(q.error());
-  return CameraCalibrator(config).calibrate(**picture, rig.nominal(), *q,
-                                            rig.nominal().X_base_operatorcamera.pose());
+  if (!picture || !q) {
+    pictures_ = tl::make_unexpected(picture ? q.error() : picture.error());
+    return;
+  }
+  pictures_->push_back({std::move(*picture), *q});
+}
+
+Result<Extrinsics> CameraPart::calibrate(const RobotGeometry& nominal) const {
+  if (!pictures_) return tl::make_unexpected(pictures_.error());
+  return CameraCalibrator(config_).calibrate(*pictures_, nominal,
+                                             nominal.X_base_operatorcamera.pose());
 }
 
 }  // namespace kiln

@@ -21,7 +21,8 @@ Result<StillScan> scanHere(CalibrationRig& rig) {
 
 }  // namespace
 
-Result<std::vector<StillScan>> collectScans(CalibrationRig& rig, int postures) {
+Result<std::vector<StillScan>> collectScans(CalibrationRig& rig, int postures,
+                                            const std::function<void()>& also) {
   const Eigen::Isometry3d X_drive =
       rig.nominal().X_base_flange(RobotGeometry::radians(rig.nominal().q_drive_deg));
   const auto posture = [&](int i) {
@@ -38,6 +39,7 @@ Result<std::vector<StillScan>> collectScans(CalibrationRig& rig, int postures) {
     auto seen = scanHere(rig);
     if (!seen) return tl::make_unexpected(seen.error());
     out.push_back(std::move(*seen));
+    also();
     return {};
   });
   if (!visited) return tl::make_unexpected(visited.error());

@@ -7,6 +7,8 @@ namespace kiln {
 
 /// Still scans of the yard's walls from postures around and above the drive pose, turned about all
 /// three axes; without the robot itself.
-[[nodiscard]] Result<std::vector<StillScan>> collectScans(CalibrationRig& rig, int postures);
+/// @param also  done at every posture.
+[[nodiscard]] Result<std::vector<StillScan>> collectScans(CalibrationRig& rig, int postures,
+                                                          const std::function<void()>& also);
 
 }  // namespace kiln

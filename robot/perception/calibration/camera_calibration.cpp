@@ -9,118 +9,13 @@
 #include <Eigen/Dense>
 
 #include "common/geom/camera_model.h"
+#include "robot/perception/calibration/robot_edges.h"
 
 namespace kiln {
 namespace {
 
 constexpr double kDeg = M_PI / 180.0;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
-
-struct Solid {
-  Eigen::Isometry3d X_base_box;
-  Eigen::Vector3d half;
-};
-
-struct Rod {
-  Eigen::Vector3d a, b;
-  double radius;
-};
-
-/// A point of an edge of the robot, and a second one beside it along the edge.
-struct EdgePoint {
-  Eigen::Vector3d p, along;
-};
-
-/// Does the segment from `from` to `to` pass through the box, its last centimetre left out?
-bool passes(const Solid& box, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
-  const Eigen::Vector3d a = box.X_base_box.inverse() * from, b = box.X_base_box.inverse() * to;
-  const Eigen::Vector3d d = b - a;
-  double enter = 0.0, leave = 1.0 - 0.01 / std::max(0.02, d.norm());
-  for (int i = 0; i < 3; ++i) {
-    if (std::abs(d[i]) < 1e-9) {
-      if (std::abs(a[i]) > box.half[i]) return false;
-      continue;
-    }
-    const double s = (-box.half[i] - a[i]) / d[i], t = (box.half[i] - a[i]) / d[i];
-    enter = std::max(enter, std::min(s, t));
-    leave = std::min(leave, std::max(s, t));
-  }
-  return enter < leave;
-}
-
-/// Least distance of two segments, sampled: the rods are thick.
-bool passes(const Rod& rod, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
-  const Eigen::Vector3d ray = (to - from).normalized();
-  constexpr int kPieces = 12;
-  for (int i = 0; i <= kPieces; ++i) {
-    const Eigen::Vector3d p = rod.a + (rod.b - rod.a) * (static_cast<double>(i) / kPieces);
-    const double along = (p - from).dot(ray);
-    if (along < 0.0 || along > (to - from).norm()) continue;
-    if ((p - from - along * ray).norm() < rod.radius) return true;
-  }
-  return false;
-}
-
-struct Robot {
-  std::vector<Solid> boxes;
-  std::vector<Rod> rods;
-};
-
-Robot robotAt(const RobotGeometry& geometry, const Vector6d& q) {
-  constexpr double kMargin = 0.06;  // joints, hose, shadows beside the arm
-  Robot out;
-  for (const BoxConfig& box : geometry.body)
-    out.boxes.push_back(
-        {box.center.pose(), 0.5 * Eigen::Vector3d(box.size_m[0], box.size_m[1], box.size_m[2])});
-  const Eigen::Isometry3d X = geometry.X_base_armbase.pose();
-  const auto frames = geometry.arm.frames(q);
-  Eigen::Vector3d from = X.translation();
-  for (std::size_t i = 0; i < 6; ++i) {
-    const Eigen::Isometry3d parent = i == 0 ? Eigen::Isometry3d::Identity() : frames[i - 1];
-    const Eigen::Vector3d corner = X * (parent * Eigen::Vector3d(0, 0, geometry.arm.d[i]));
-    const Eigen::Vector3d end = X * frames[i].translation();
-    const double radius =
-        geometry.link_radius_m[std::min(i, geometry.link_radius_m.size() - 1)] + kMargin;
-    out.rods.push_back({from, corner, radius});
-    out.rods.push_back({corner, end, radius});
-    from = end;
-  }
-  const Eigen::Vector3d tip = X * frames[5] * Eigen::Vector3d(0, 0, 0.25);
-  out.rods.push_back({from, tip, 0.22});
-  return out;
-}
-
-std::vector<EdgePoint> visibleEdges(const Robot& robot, const Eigen::Vector3d& p_camera,
-                                    double sample_m) {
-  std::vector<EdgePoint> out;
-  for (std::size_t k = 0; k < robot.boxes.size(); ++k) {
-    const Solid& box = robot.boxes[k];
-    for (int axis = 0; axis < 3; ++axis) {
-      for (const double su : {-1.0, 1.0}) {
-        for (const double sv : {-1.0, 1.0}) {
-          const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-          const int steps = std::max(2, static_cast<int>(2.0 * box.half[axis] / sample_m));
-          for (int i = 1; i < steps; ++i) {
-            Eigen::Vector3d local;
-            local[axis] = box.half[axis] * (2.0 * i / steps - 1.0);
-            local[u] = su * box.half[u];
-            local[v] = sv * box.half[v];
-            const Eigen::Vector3d p = box.X_base_box * local;
-            // Seen when one of the two faces that meet here is turned to the camera.
-            const Eigen::Vector3d view = box.X_base_box.linear().transpose() * (p_camera - p);
-            if (su * view[u] <= 0.0 && sv * view[v] <= 0.0) continue;
-            const auto hides = [&](const auto& thing) { return passes(thing, p_camera, p); };
-            if (std::any_of(robot.boxes.begin(), robot.boxes.end(), hides) ||
-                std::any_of(robot.rods.begin(), robot.rods.end(), hides))
-              continue;
-            out.push_back({p, p + 0.01 * box.X_base_box.linear().col(axis)});
-          }
-        }
-      }
-    }
-  }
-  return out;
-}
 
 /// Brightness with sub-pixel places; -1 outside.
 class Grey {
@@ -182,6 +77,12 @@ Eigen::Isometry3d moved(const Eigen::Isometry3d& X, const Vector6& x) {
          makePose(Eigen::Vector3d::Zero(), x.head<3>());
 }
 
+struct View {
+  Grey grey;
+  CameraModel camera;
+  std::vector<EdgePoint> edges;
+};
+
 struct Round {
   Eigen::Matrix<double, 6, 6> H = Eigen::Matrix<double, 6, 6>::Zero();
   Vector6 g = Vector6::Zero();
@@ -189,19 +90,18 @@ struct Round {
   int points = 0;
 };
 
-Round measure(const std::vector<EdgePoint>& edges, const Grey& grey, const CameraModel& camera,
-              const Eigen::Isometry3d& X_base_camera, double reach_px,
-              const CameraCalibrator::Config& config) {
-  Round out;
+/// Adds what one picture says.
+void measure(const View& view, const Eigen::Isometry3d& X_base_camera, double reach_px,
+             const CameraCalibrator::Config& config, Round& out) {
   const auto project = [&](const Eigen::Isometry3d& X, const Eigen::Vector3d& p) {
-    return camera.project(X.inverse() * p);
+    return view.camera.project(X.inverse() * p);
   };
-  for (const EdgePoint& edge : edges) {
+  for (const EdgePoint& edge : view.edges) {
     const auto px = project(X_base_camera, edge.p), beside = project(X_base_camera, edge.along);
     if (!px || !beside || (*beside - *px).norm() < 1e-3) continue;
     const Eigen::Vector2d along = (*beside - *px).normalized();
     const Eigen::Vector2d normal(-along.y(), along.x());
-    const auto step = findStep(grey, *px, normal, reach_px, config.min_step_grey);
+    const auto step = findStep(view.grey, *px, normal, reach_px, config.min_step_grey);
     if (!step) continue;
     Vector6 J;
     for (int i = 0; i < 6; ++i) {
@@ -221,7 +121,12 @@ Round measure(const std::vector<EdgePoint>& edges, const Grey& grey, const Camer
       ++out.points;
     }
   }
-  return out;
+}
+
+bool whole(const RgbImagePtr& picture) {
+  if (!picture || picture->width <= 0 || picture->height <= 0) return false;
+  return picture->data.size() ==
+         3 * static_cast<std::size_t>(picture->width) * static_cast<std::size_t>(picture->height);
 }
 
 }  // namespace
@@ -238,17 +143,18 @@ void CameraCalibrator::Config::visit(ConfigArchive& a) {
   a.field("min_points", min_points, "", 10, 10000, "fewer are refused");
 }
 
-Result<Extrinsics> CameraCalibrator::calibrate(const RgbImage& picture, const RobotGeometry& robot,
-                                               const Vector6d& q,
+Result<Extrinsics> CameraCalibrator::calibrate(std::span<const RobotPicture> pictures,
+                                               const RobotGeometry& robot,
                                                const Eigen::Isometry3d& X_base_camera) const {
-  const auto pixels = static_cast<std::size_t>(std::max(0, picture.width)) *
-                      static_cast<std::size_t>(std::max(0, picture.height));
-  if (pixels == 0 || picture.data.size() != 3 * pixels)
-    return makeError(ErrorCode::InvalidInput, "the picture of the operator camera is not whole");
-  const CameraModel camera =
-      CameraModel::fromHorizontalFov(picture.width, picture.height, config_.hfov_deg * kDeg);
-  const Grey grey(picture);
-  const auto edges = visibleEdges(robotAt(robot, q), X_base_camera.translation(), config_.sample_m);
+  std::vector<View> views;
+  for (const RobotPicture& seen : pictures) {
+    if (!whole(seen.picture))
+      return makeError(ErrorCode::InvalidInput, "a picture of the operator camera is not whole");
+    views.push_back({Grey(*seen.picture),
+                     CameraModel::fromHorizontalFov(seen.picture->width, seen.picture->height,
+                                                    config_.hfov_deg * kDeg),
+                     visibleEdges(robot, seen.q, X_base_camera.translation(), config_.sample_m)});
+  }
   const double r2 = std::pow(config_.prior_deg * kDeg, 2), t2 = config_.prior_m * config_.prior_m;
   Vector6 prior;
   prior << 1 / r2, 1 / r2, 1 / r2, 1 / t2, 1 / t2, 1 / t2;
@@ -258,8 +164,9 @@ Result<Extrinsics> CameraCalibrator::calibrate(const RgbImage& picture, const Ro
   Round round;
   for (int k = 0; k < config_.rounds; ++k) {
     const double share = std::min(1.0, static_cast<double>(k) / (0.6 * config_.rounds));
-    round = measure(edges, grey, camera, out.X_parent_sensor,
-                    config_.search_px * (1.0 - 0.67 * share), config_);
+    round = Round{};
+    for (const View& view : views)
+      measure(view, out.X_parent_sensor, config_.search_px * (1.0 - 0.67 * share), config_, round);
     if (round.points < config_.min_points)
       return makeError(ErrorCode::Degenerate,
                        "{} points on the robot's edges are seen by the operator camera; {} are "
@@ -276,7 +183,7 @@ Result<Extrinsics> CameraCalibrator::calibrate(const RgbImage& picture, const Ro
   out.sigma_m = C.diagonal().tail<3>().cwiseSqrt();
   out.rms_after = std::sqrt(round.squares / round.points);
   out.unit = "px";
-  out.views = 1;
+  out.views = static_cast<int>(views.size());
   out.measurements = round.points;
   return out;
 }
