@@ -50,6 +50,8 @@ void ActButton::setSubtext(const QString& text) {
 void ActButton::setWrapping(bool wrapping) {
   QSizePolicy policy = sizePolicy();
   policy.setHeightForWidth(wrapping);
+  // Neighbours in a row become equally high.
+  policy.setVerticalPolicy(wrapping ? QSizePolicy::Minimum : QSizePolicy::Fixed);
   setSizePolicy(policy);
 }
 

@@ -136,6 +136,7 @@ bool Tile::eventFilter(QObject* watched, QEvent* event) {
 }
 
 void Tile::setAge(double age_s, AgeLevel level) {
+  if (level != level_) update();  // the frame tells it too
   level_ = level;
   badge_->set(age_s, level);
   badge_->setVisible(true);

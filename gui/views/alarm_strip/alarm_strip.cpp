@@ -116,7 +116,7 @@ void AlarmStrip::paintEvent(QPaintEvent*) {
   const int right = (top ? acknowledge_ : log_)->x() - 10;
   const QFont small = ui_.theme.font(TextRole::Small);
   const QString note = summary();
-  const int note_width = std::min(QFontMetrics(small).horizontalAdvance(note), width() / 3);
+  const int note_width = std::min(QFontMetrics(small).horizontalAdvance(note) + 4, width() / 3);
   painter.setFont(small);
   painter.setPen(top ? p.text : p.dim);
   painter.drawText(QRect(right - note_width, 0, note_width, height()),

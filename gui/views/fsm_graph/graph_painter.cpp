@@ -216,7 +216,7 @@ void GraphPainter::node(const GraphLayout::Node& node, const QRectF& box) {
 }
 
 void GraphPainter::lock(const QRectF& box, const QColor& color) {
-  const QPointF at = box.topRight() + QPointF(-9, 4);
+  const QPointF at = box.topRight() + QPointF(-7, -2);  // on the rim: labels need the inside
   painter_.setPen(QPen(color, 1.2));
   painter_.setBrush(Qt::NoBrush);
   painter_.drawArc(QRectF(at + QPointF(-2.2, -2.5), QSizeF(4.4, 6)), 0, 180 * 16);

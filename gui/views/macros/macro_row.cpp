@@ -5,6 +5,8 @@
 #include <QStringList>
 #include <algorithm>
 
+#include "gui/widgets/fitted_text.h"
+
 namespace kiln::gui {
 namespace {
 constexpr int kHeight_px = 41, kPad_px = 9;
@@ -74,17 +76,18 @@ void MacroRow::paintEvent(QPaintEvent*) {
   const QString hint = isEngaged() ? tr("release to cancel") : hint_;
   const double hint_width = QFontMetricsF(small).horizontalAdvance(hint);
   painter.setPen(isEngaged() ? p.manual : isEnabled() ? p.dim : p.faint);
-  painter.drawText(text, Qt::AlignRight | Qt::AlignVCenter, hint);
-  const QRectF left = text.adjusted(0, 0, -hint_width - 8, 0);
+  painter.drawText(text, Qt::AlignRight | Qt::AlignTop, hint);
+  // What it does and where it may start needs the whole width: the hint stands beside the name.
+  QFont smaller = small;
+  smaller.setPointSizeF(0.88 * small.pointSizeF());
+  const int room = static_cast<int>(text.width());
   painter.setPen(isEnabled() ? p.dim : p.faint);
-  painter.drawText(left, Qt::AlignLeft | Qt::AlignBottom,
-                   QFontMetricsF(small).elidedText(running ? step_ : summary(macro_),
-                                                   Qt::ElideRight, left.width()));
-  painter.setFont(strong);
+  paintFitted(painter, text, Qt::AlignLeft | Qt::AlignBottom,
+              fitText(running ? step_ : summary(macro_), {small, smaller}, room, 1));
   painter.setPen(isEnabled() ? p.text : p.faint);
-  painter.drawText(left, Qt::AlignLeft | Qt::AlignTop,
-                   QFontMetricsF(strong).elidedText(QString::fromStdString(macro_.name),
-                                                    Qt::ElideRight, left.width()));
+  paintFitted(painter, text, Qt::AlignLeft | Qt::AlignTop,
+              fitText(QString::fromStdString(macro_.name), {strong, small},
+                      room - static_cast<int>(hint_width) - 8, 1));
 }
 
 }  // namespace kiln::gui

@@ -56,9 +56,9 @@ PlacePanel::PlacePanel(const Ui& ui, StationModels& models, PlaceNudge& nudge, Q
   column->addLayout(steps);
   auto* acts = new QGridLayout;
   acts->setSpacing(6);
-  for (const int column : {0, 1}) {
-    acts->setColumnStretch(column, 1);
-    acts->setColumnMinimumWidth(column, (kWidth_px - 22) / 2);
+  for (const int side : {0, 1}) {
+    acts->setColumnStretch(side, 1);
+    acts->setColumnMinimumWidth(side, (kWidth_px - 22) / 2);
   }
   sensed_->setToolTip(tr("wish the configured place where the cloud shows the box"));
   cancel_->setToolTip(tr("forget the wish"));
