@@ -1,6 +1,7 @@
 #include "common/record/player.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace kiln {
 
@@ -49,6 +50,12 @@ void Player::seek(Stamp t) {
   t = std::clamp(t, start_, end_);
   const auto before = reader_.newestBefore(t, topics_);
   snapshot_.assign(before.begin(), before.end());
+  silent_.clear();
+  std::copy_if(topics_.begin(), topics_.end(), std::back_inserter(silent_),
+               [&](const std::string& topic) {
+                 return std::none_of(before.begin(), before.end(),
+                                     [&](const RecordedMessage& m) { return m.topic == topic; });
+               });
   cursor_.seek(t + Duration{1});
   ended_ = reader_.empty();
   anchor(t);

@@ -44,6 +44,8 @@ class Player {
   [[nodiscard]] double speed() const { return speed_; }
   /// Clamped to start() .. end(). Keeps playing or paused.
   void seek(Stamp t);
+  /// Topics without a message at or before the place of the last seek: there is nothing to show.
+  [[nodiscard]] const std::vector<std::string>& silentTopics() const { return silent_; }
   /// Pauses and goes on by `d`: poll() then delivers what lies within. Negative: back (a seek).
   void step(Duration d);
 
@@ -70,6 +72,7 @@ class Player {
   Stamp start_, end_;
   RecordCursor cursor_;
   RecordingClock clock_;
+  std::vector<std::string> silent_;
   std::deque<RecordedMessage> snapshot_;  ///< to be delivered first after a seek
   double speed_ = 1.0;
   bool playing_ = false;

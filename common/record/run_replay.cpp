@@ -51,6 +51,13 @@ Result<RunReplay> RunReplay::open(const std::string& path, const Clock& wall) {
   return RunReplay(std::make_unique<Player>(std::move(*reader), publishedTopics(), wall));
 }
 
+std::vector<Topic> RunReplay::silentTopics() const {
+  std::vector<Topic> out;
+  for (const std::string& name : player_->silentTopics())
+    if (const auto topic = run::publishedTopic(name)) out.push_back(*topic);
+  return out;
+}
+
 Result<std::size_t> RunReplay::poll(const Sink& sink, std::size_t limit) {
   std::optional<Error> bad_picture;
   const auto polled = player_->poll(

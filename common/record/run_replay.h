@@ -38,6 +38,8 @@ class RunReplay {
   [[nodiscard]] Player& player() { return *player_; }
   [[nodiscard]] const Player& player() const { return *player_; }
   [[nodiscard]] RunInfo info() const { return runInfo(player_->reader()); }
+  /// What the robot had not published yet at the place of the last seek.
+  [[nodiscard]] std::vector<Topic> silentTopics() const;
   /// As Player::poll. A picture that cannot be read is an Error too; polling again goes on.
   [[nodiscard]] Result<std::size_t> poll(const Sink& sink, std::size_t limit = 500);
 

@@ -14,6 +14,7 @@
 #include "common/model/scene.h"
 #include "common/model/sensor.h"
 #include "common/model/status.h"
+#include "common/transport/topics.h"
 
 namespace kiln::gui {
 
@@ -98,6 +99,9 @@ class Link : public QObject {
   void ack(const kiln::CommandAck& ack);
   /// What follows does not go on from what came before (a jump in a recording): forget histories.
   void restarted();
+  /// After restarted(): nothing of these had been published at the new time. What is still shown of
+  /// them is of another one.
+  void absent(const std::vector<kiln::Topic>& topics);
 };
 
 }  // namespace kiln::gui

@@ -184,8 +184,9 @@ void ReplayLink::Impl::tellJump(const std::stop_token& stop) {
   jump_told = false;
   QMetaObject::invokeMethod(
       link,
-      [this] {
+      [this, absent = replay.silentTopics()] {
         emit link->restarted();
+        if (!absent.empty()) emit link->absent(absent);
         const std::lock_guard told(mutex);
         jump_told = true;
         wake.notify_all();

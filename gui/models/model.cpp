@@ -47,6 +47,14 @@ void Model::arrived(Stamp stamp) {
   dirty_ = true;
 }
 
+void Model::forget() {
+  received_.reset();
+  stamp_ = {};
+  period_s_ = 0.0;
+  jumped_ = false;
+  dirty_ = true;
+}
+
 void Model::flush() {
   if (!dirty_) return;
   dirty_ = false;

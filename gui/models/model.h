@@ -39,6 +39,8 @@ class Model : public QObject {
  protected:
   /// Note a new value that was true at `stamp` (robot time).
   void arrived(Stamp stamp);
+  /// Back to the time before the first value.
+  void forget();
   /// Ask for a changed() without new data.
   void touch() { dirty_ = true; }
   [[nodiscard]] Link& link() const { return link_; }

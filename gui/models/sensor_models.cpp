@@ -1,10 +1,26 @@
 #include "gui/models/sensor_models.h"
 
+#include <algorithm>
 #include <cmath>
+
+#include "common/geom/frames.h"
 
 namespace kiln::gui {
 
+namespace {
+
+bool holds(const std::vector<Topic>& topics, Topic topic) {
+  return std::find(topics.begin(), topics.end(), topic) != topics.end();
+}
+
+}  // namespace
+
 CloudModel::CloudModel(Link& link, QObject* parent) : Model(link, kVideoAge, parent) {
+  connect(&link, &Link::absent, this, [this](const std::vector<Topic>& topics) {
+    if (!holds(topics, Topic::Cloud)) return;
+    cloud_.reset();
+    forget();
+  });
   connect(&link, &Link::cloud, this, [this](PointCloudPtr cloud) {
     cloud_ = std::move(cloud);
     arrived(cloud_->stamp);
@@ -12,6 +28,12 @@ CloudModel::CloudModel(Link& link, QObject* parent) : Model(link, kVideoAge, par
 }
 
 ThermalModel::ThermalModel(Link& link, QObject* parent) : Model(link, kVideoAge, parent) {
+  connect(&link, &Link::absent, this, [this](const std::vector<Topic>& topics) {
+    if (holds(topics, Topic::Heat)) heat_.reset();
+    if (!holds(topics, Topic::Thermal)) return touch();
+    image_.reset();
+    forget();
+  });
   connect(&link, &Link::thermal, this, [this](ThermalImagePtr image) {
     if (!image_ || image->frame_counter != image_->frame_counter) advanced_ = stationNow();
     image_ = std::move(image);
@@ -27,6 +49,11 @@ double ThermalModel::frozenS() const { return image_ ? toSeconds(stationNow() - 
 
 CameraModel::CameraModel(Link& link, std::string frame, QObject* parent)
     : Model(link, kVideoAge, parent), frame_(std::move(frame)) {
+  connect(&link, &Link::absent, this, [this](const std::vector<Topic>& topics) {
+    if (!holds(topics, frame_ == frames::kRgb ? Topic::HeadCamera : Topic::OperatorCamera)) return;
+    image_.reset();
+    forget();
+  });
   connect(&link, &Link::image, this, [this](RgbImagePtr image) {
     // A picture that could not be decoded comes without pixels: for the view to name, no fresh
     // view.

@@ -32,13 +32,15 @@ OperatorSession::Callbacks ScriptedOperator::callbacks() {
 
 Result<std::unique_ptr<ScriptedOperator>> ScriptedOperator::connect(const std::string& endpoint,
                                                                     const std::string& name,
-                                                                    Duration limit) {
+                                                                    Duration limit,
+                                                                    const Clock* clock) {
   std::unique_ptr<ScriptedOperator> person(new ScriptedOperator);
   OperatorSession::Config config;
   config.endpoint = endpoint;
   config.operator_name = name;
   config.program_version = KILN_VERSION;
-  auto session = OperatorSession::open(config, person->callbacks(), person->clock_);
+  auto session = OperatorSession::open(config, person->callbacks(),
+                                       clock != nullptr ? *clock : person->clock_);
   if (!session) return tl::make_unexpected(session.error());
   person->session_ = std::move(*session);
   auto connected = person->waitFor("the robot's status", limit, [](const View& v) {

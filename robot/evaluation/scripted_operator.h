@@ -26,8 +26,11 @@ class ScriptedOperator {
     StopReport stop;
     LinkReport link;
   };
+  /// @param clock  the station's; nullptr: a steady one of its own. In lockstep, where robot time
+  ///               outruns the wall's, the robot's own: the two ends then have no offset to learn.
   [[nodiscard]] static Result<std::unique_ptr<ScriptedOperator>> connect(
-      const std::string& endpoint, const std::string& name, Duration limit);
+      const std::string& endpoint, const std::string& name, Duration limit,
+      const Clock* clock = nullptr);
 
   /// Waits until the view satisfies `condition`. Error: Timeout, naming `what`.
   [[nodiscard]] Result<void> waitFor(const std::string& what, Duration limit,

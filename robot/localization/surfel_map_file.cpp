@@ -4,12 +4,11 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
-#include <tuple>
 
 #include <zstd.h>
 
 #include "common/core/atomic_file.h"
-#include "robot/localization/byte_columns.h"
+#include "robot/localization/surfel_rows.h"
 
 namespace kiln {
 namespace {
@@ -18,9 +17,6 @@ constexpr std::string_view kMagic = "KILNSMAP";
 constexpr std::size_t kHeaderSize = 8 + 4 + 8 + 8 + 8;
 constexpr std::uint64_t kMaxRawSize = 256ULL << 20U;
 constexpr std::size_t kMaxSegments = 16;
-constexpr double kMeanSteps = 255.0;      // of a cell
-constexpr double kCovarianceStep = 1e-4;  // of a cell squared: (1 mm)^2 at 0.1 m
-constexpr double kMaxCovariance = 1.0;    // of a cell squared
 constexpr int kCompression = 19;
 
 /// FNV-1a.
@@ -28,135 +24,6 @@ std::uint64_t checksum(std::string_view bytes) {
   std::uint64_t hash = 0xcbf29ce484222325ULL;
   for (const char c : bytes) hash = (hash ^ static_cast<std::uint8_t>(c)) * 0x100000001b3ULL;
   return hash;
-}
-
-std::uint64_t zigzag(std::int64_t v) {
-  return (static_cast<std::uint64_t>(v) << 1U) ^ static_cast<std::uint64_t>(v >> 63U);
-}
-std::int64_t unzigzag(std::uint64_t v) {
-  return static_cast<std::int64_t>(v >> 1U) ^ -static_cast<std::int64_t>(v & 1U);
-}
-
-/// One side of one cell, in the numbers that are stored.
-struct Row {
-  SurfelMap::Cell cell;
-  int side = 0;
-  std::uint64_t count = 0;
-  std::array<std::uint8_t, 3> mean{};
-  std::array<std::int64_t, 6> covariance{};
-  std::array<std::int8_t, 3> view{};
-};
-
-constexpr std::array<std::array<int, 2>, 6> kEntries{
-    {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}}};
-
-Row rowOf(const SurfelMap::Cell& cell, int side, const SurfelMoments& moments, double cell_m) {
-  Row row;
-  row.cell = cell;
-  row.side = side;
-  row.count = static_cast<std::uint64_t>(std::llround(moments.count));
-  const Eigen::Vector3d mean = moments.mean() / cell_m - cell.cast<double>();
-  const Eigen::Matrix3d covariance = moments.covariance() / (cell_m * cell_m);
-  const Eigen::Vector3d view = moments.view_sum / moments.count;
-  for (int i = 0; i < 3; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    row.mean[k] =
-        static_cast<std::uint8_t>(std::lround(std::clamp(mean[i], 0.0, 1.0) * kMeanSteps));
-    row.view[k] = static_cast<std::int8_t>(std::lround(std::clamp(view[i], -1.0, 1.0) * 127.0));
-  }
-  for (std::size_t i = 0; i < 6; ++i) {
-    row.covariance[i] = std::llround(covariance(kEntries[i][0], kEntries[i][1]) / kCovarianceStep);
-  }
-  return row;
-}
-
-SurfelMoments momentsOf(const Row& row, double cell_m) {
-  Eigen::Vector3d mean, view;
-  Eigen::Matrix3d covariance;
-  for (int i = 0; i < 3; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    mean[i] = (row.cell[i] + row.mean[k] / kMeanSteps) * cell_m;
-    view[i] = row.view[k] / 127.0;
-  }
-  for (std::size_t i = 0; i < 6; ++i) {
-    const int r = kEntries[i][0], c = kEntries[i][1];
-    covariance(r, c) = covariance(c, r) =
-        static_cast<double>(row.covariance[i]) * kCovarianceStep * cell_m * cell_m;
-  }
-  SurfelMoments out;
-  out.count = static_cast<double>(row.count);
-  out.sum = out.count * mean;
-  out.squares = out.count * (covariance + mean * mean.transpose());
-  out.view_sum = out.count * view;
-  return out;
-}
-
-std::vector<Row> rowsOf(const SurfelMap& map, int level, int min_points) {
-  std::vector<Row> rows;
-  for (const SurfelMap::CellMoments& cell : map.ownCells(level)) {
-    for (int side = 0; side < 2; ++side) {
-      const SurfelMoments& moments = cell.sides[static_cast<std::size_t>(side)];
-      if (moments.count + 0.5 > min_points)
-        rows.push_back(rowOf(cell.cell, side, moments, map.cellSize(level)));
-    }
-  }
-  std::sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) {
-    return std::tie(a.cell.z(), a.cell.y(), a.cell.x(), a.side) <
-           std::tie(b.cell.z(), b.cell.y(), b.cell.x(), b.side);
-  });
-  return rows;
-}
-
-void writeRows(const std::vector<Row>& rows, ByteWriter& out) {
-  out.u32(static_cast<std::uint32_t>(rows.size()));
-  Row last;
-  last.cell.setZero();
-  for (const Row& row : rows) {
-    for (int i = 2; i >= 0; --i) out.varint(zigzag(row.cell[i] - last.cell[i]));
-    last = row;
-  }
-  for (const Row& row : rows) out.u8(static_cast<std::uint8_t>(row.side));
-  for (const Row& row : rows) out.varint(row.count);
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (const Row& row : rows) out.u8(row.mean[i]);
-  }
-  for (std::size_t i = 0; i < 6; ++i) {
-    for (const Row& row : rows) out.varint(zigzag(row.covariance[i]));
-  }
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (const Row& row : rows) out.u8(static_cast<std::uint8_t>(row.view[i]));
-  }
-}
-
-bool readRows(ByteReader& in, std::vector<Row>& rows) {
-  const std::size_t count = in.u32();
-  if (count > in.left()) return false;
-  rows.resize(count);
-  SurfelMap::Cell cell = SurfelMap::Cell::Zero();
-  for (Row& row : rows) {
-    for (int i = 2; i >= 0; --i) {
-      const std::int64_t value = cell[i] + unzigzag(in.varint());
-      if (std::abs(value) > (1 << 20)) return false;
-      cell[i] = static_cast<int>(value);
-    }
-    row.cell = cell;
-  }
-  bool good = true;
-  for (Row& row : rows) good &= (row.side = in.u8()) <= 1;
-  for (Row& row : rows) good &= (row.count = in.varint()) >= 1 && row.count < (1ULL << 40U);
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (Row& row : rows) row.mean[i] = in.u8();
-  }
-  for (std::size_t i = 0; i < 6; ++i) {
-    for (Row& row : rows) {
-      row.covariance[i] = unzigzag(in.varint());
-      good &= std::abs(static_cast<double>(row.covariance[i])) * kCovarianceStep <= kMaxCovariance;
-    }
-  }
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (Row& row : rows) row.view[i] = static_cast<std::int8_t>(in.u8());
-  }
-  return good && in.ok();
 }
 
 void writePosts(const std::vector<Post>& posts, ByteWriter& out) {
@@ -196,7 +63,7 @@ std::string payload(const LocalizationMap& map, int min_points) {
       out.u32(static_cast<std::uint32_t>(value));
     for (int i = 0; i < 3; ++i) out.f64(segment.map->center()[i]);
     for (int level = 0; level < config.levels; ++level)
-      writeRows(rowsOf(*segment.map, level, min_points), out);
+      writeSurfelRows(surfelRows(*segment.map, level, min_points), out);
     writePosts(segment.map->posts(), out);
   }
   return out.bytes();
@@ -226,12 +93,12 @@ Result<LocalizationMap> parse(std::string_view raw, const std::string& name) {
       return outOfRange(name);
     auto map = std::make_shared<SurfelMap>(config, center);
     for (int level = 0; level < config.levels; ++level) {
-      std::vector<Row> rows;
-      if (!readRows(in, rows)) return outOfRange(name);
-      for (const Row& row : rows) {
+      std::vector<SurfelRow> rows;
+      if (!readSurfelRows(in, rows)) return outOfRange(name);
+      for (const SurfelRow& row : rows) {
         SurfelMap::CellMoments cell;
         cell.cell = row.cell;
-        cell.sides[static_cast<std::size_t>(row.side)] = momentsOf(row, map->cellSize(level));
+        cell.sides[static_cast<std::size_t>(row.side)] = row.moments(map->cellSize(level));
         if (!map->addMoments(level, cell)) return outOfRange(name);
       }
     }

@@ -9,6 +9,8 @@ namespace kiln::sim {
 namespace {
 
 constexpr double kDeg = M_PI / 180.0;
+constexpr double kStep_mps = 1.1;  // of somebody who steps into the way
+constexpr double kAside_m = 1.8;   // where they come from
 
 Pose2 shift(const FaultConfig& fault) {
   return {faultValue(fault, 0), faultValue(fault, 1), faultValue(fault, 2) * kDeg};
@@ -60,11 +62,27 @@ void Disturbances::walk(const FaultConfig* fault, double step_s, const Physics& 
   walkers_->step(step_s, physics.X_map_base().translation().head<2>());
 }
 
+void Disturbances::stepInWay(const FaultConfig* fault, double step_s) {
+  if (fault == nullptr && !bystander_) return;
+  Eigen::Vector2d goal = bystander_ ? bystander_->from : Eigen::Vector2d::Zero();
+  if (fault != nullptr) {
+    goal = {faultValue(*fault, 0), faultValue(*fault, 1)};
+    const Eigen::Vector2d from = goal + Eigen::Vector2d(0.0, kAside_m);
+    if (!bystander_) bystander_ = Bystander{from, from};
+  }
+  const Eigen::Vector2d way = goal - bystander_->p;
+  const double stride = kStep_mps * step_s;
+  bystander_->p =
+      way.norm() <= stride ? goal : Eigen::Vector2d(bystander_->p + stride * way.normalized());
+  if (fault == nullptr && bystander_->p == bystander_->from) bystander_.reset();
+}
+
 void Disturbances::step(const FaultScript& faults, Stamp now, double step_s, Physics& physics) {
   if (faults.all().empty()) return;
   kidnap(faults, now, physics);
   moveCupboard(faults.find("cupboard_moved", now), physics);
   walk(faults.find("people", now), step_s, physics);
+  stepInWay(faults.find("person_in_way", now), step_s);
   const FaultConfig* blocked = faults.find("view_blocked", now);
   board_azimuth_rad_.reset();
   if (blocked != nullptr) board_azimuth_rad_ = faultValue(*blocked, 0) * kDeg;
@@ -72,6 +90,9 @@ void Disturbances::step(const FaultScript& faults, Stamp now, double step_s, Phy
 
 void Disturbances::show(SceneState& state) const {
   if (walkers_) state.people = walkers_->feet();
+  if (bystander_)
+    state.people.emplace_back(bystander_->p.x(), bystander_->p.y(),
+                              arena_.ground.height(bystander_->p.x()));
   state.moved = moved_;
   state.board_azimuth_rad = board_azimuth_rad_;
 }

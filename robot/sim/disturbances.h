@@ -10,7 +10,7 @@
 namespace kiln::sim {
 
 /// Scripted things that make localisation hard: the robot is carried off, the cupboard is moved,
-/// people walk, boards hide half the view. Thread-compatible.
+/// people walk or stand in the way, boards hide half the view. Thread-compatible.
 class Disturbances {
  public:
   Disturbances(const TrueArena& arena, const RobotGeometry& robot, std::uint64_t seed);
@@ -25,6 +25,7 @@ class Disturbances {
   void kidnap(const FaultScript& faults, Stamp now, Physics& physics);
   void moveCupboard(const FaultConfig* fault, Physics& physics);
   void walk(const FaultConfig* fault, double step_s, const Physics& physics);
+  void stepInWay(const FaultConfig* fault, double step_s);
 
   TrueArena arena_;
   RobotGeometry robot_;
@@ -34,6 +35,10 @@ class Disturbances {
   std::optional<std::size_t> cupboard_;  ///< index in arena.boxes
   std::optional<MovedBox> moved_;
   std::optional<Walkers> walkers_;
+  struct Bystander {
+    Eigen::Vector2d from, p;
+  };
+  std::optional<Bystander> bystander_;
   std::optional<double> board_azimuth_rad_;
 };
 

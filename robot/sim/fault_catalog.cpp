@@ -68,6 +68,12 @@ std::span<const FaultKind> faultKinds() {
        {2},
        false,
        "so many people walk about, 1.1 m/s; they keep out of the robot's way"},
+      {"person_in_way",
+       "X_M,Y_M",
+       {6.6, 0},
+       false,
+       "one person steps to that place in map from the side, stands there, and steps back at the "
+       "end; does not keep out of the robot's way"},
       {"view_blocked",
        "AZIMUTH_DEG",
        {0},

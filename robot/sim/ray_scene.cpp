@@ -204,7 +204,8 @@ void RayScene::addDisturbances(const WorldConfig& config) {
                        [&](const FaultConfig& f) { return f.name == fault; });
   };
   const auto person = number(Material::Person);
-  for (std::size_t i = 0; i < kMaxPeople && scripted("people"); ++i) {
+  for (std::size_t i = 0; i < kMaxPeople + 1 && (scripted("people") || scripted("person_in_way"));
+       ++i) {
     people_.push_back({note(rays_.addCylinder(kPersonRadius, kPersonHeight - 2 * kPersonRadius,
                                               Eigen::Isometry3d::Identity(), person, 0),
                             kClothes_c),

@@ -8,6 +8,7 @@
 
 #include "robot/planning/base_path/base_path.h"
 #include "robot/skills/arena_fence.h"
+#include "robot/skills/stuck_watch.h"
 
 namespace kiln {
 namespace {
@@ -15,7 +16,6 @@ namespace {
 constexpr double kDeg = M_PI / 180.0;
 constexpr double kLookAhead = 0.5;   // s; where the wheels shall point before the base moves
 constexpr double kRateChange = 3.0;  // 1/s; how fast the reference slows down and picks up
-constexpr double kStuckWay = 0.25;   // m commanded; less proves nothing
 constexpr double kMaxTick = 0.1;     // s
 
 bool isFinite(const Pose2& p) {
@@ -25,37 +25,6 @@ bool isFinite(const Pose2& p) {
 Eigen::Vector2d clampNorm(Eigen::Vector2d v, double limit) {
   return v.norm() > limit ? Eigen::Vector2d(v * (limit / v.norm())) : v;
 }
-
-/// Commanded against covered way over a window of time.
-class StuckWatch {
- public:
-  void restart(Stamp now, const Pose2& pose) {
-    begin_ = now;
-    from_ = pose;
-    commanded_ = measured_ = 0.0;
-  }
-  /// @return true if the window ended with too little of the commanded way covered.
-  bool update(Stamp now, double dt, const Pose2& pose, const BaseTracking& tracking,
-              const DriveTo::Config& config, double lever) {
-    const auto norm = [lever](const Twist2& t) {
-      return std::hypot(t.vx_mps, t.vy_mps, lever * t.wz_radps);
-    };
-    commanded_ += norm(tracking.commanded) * dt;
-    measured_ += norm(tracking.measured) * dt;
-    if (toSeconds(now - begin_) < config.stuck_window_s) return false;
-    const double moved = std::hypot(pose.x_m - from_.x_m, pose.y_m - from_.y_m) +
-                         lever * std::abs(wrapAngle(pose.yaw_rad - from_.yaw_rad));
-    const bool stuck =
-        commanded_ > kStuckWay && std::min(moved, measured_) < config.stuck_ratio * commanded_;
-    restart(now, pose);
-    return stuck;
-  }
-
- private:
-  Stamp begin_;
-  Pose2 from_;
-  double commanded_ = 0.0, measured_ = 0.0;
-};
 
 }  // namespace
 
@@ -96,7 +65,8 @@ struct DriveTo::Impl {
         base(controller),
         pose(std::move(source)),
         guard(c.guard),
-        fence(fenceOf(arena_map, c)) {
+        fence(fenceOf(arena_map, c)),
+        stuck({c.stuck_window_s, c.stuck_ratio, path_config.turn_weight_m}) {
     path_config.speed_mps = c.speed_mps;
     path_config.approach_speed_mps = c.approach_speed_mps;
     path_config.approach_distance_m = c.approach_distance_m;
@@ -240,7 +210,7 @@ struct DriveTo::Impl {
     if (!inFence(here, config.geofence_slack_m)) {
       return fail("geofence", "the base is outside the geofence", now);
     }
-    if (stuck.update(now, dt, here, tracking, config, path_config.turn_weight_m)) {
+    if (stuck.update(now, dt, here, tracking.commanded, tracking.measured)) {
       return fail("stuck", "the base does not follow its wheels' command", now);
     }
     if (path->duration() > 0.0 && surroundings) {

@@ -24,6 +24,13 @@ CameraTile::CameraTile(const Ui& ui, StationModels& models, QWidget* parent)
   setContent(picture_, true);
   addHeaderWidget(makeChoice());
   connect(&models_.link, &Link::image, this, &CameraTile::accept);
+  connect(&models_.link, &Link::absent, this, [this](const std::vector<Topic>& topics) {
+    for (const Topic topic : topics) {
+      if (topic == Topic::HeadCamera) feeds_[Head] = CameraFeed();
+      if (topic == Topic::OperatorCamera) feeds_[Operator] = CameraFeed();
+    }
+    refresh();
+  });
   connect(&models_.camera, &Model::changed, this, &CameraTile::refresh);
   connect(&models_.head_camera, &Model::changed, this, &CameraTile::refresh);
   connect(&models_, &StationModels::aged, this, &CameraTile::refresh);

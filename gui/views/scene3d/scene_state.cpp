@@ -92,7 +92,12 @@ const SceneState::PoseAt* SceneState::poseNear(Stamp stamp) const {
 }
 
 void SceneState::setCloud(PointCloudPtr cloud) {
-  if (!cloud) return;
+  if (!cloud) {  // nothing to see at the time that a recording jumped to
+    snapshot_.cloud.reset();
+    cloud_waits_ = false;
+    touch(SceneLayer::Lidar);
+    return;
+  }
   const PoseAt* at = poseNear(cloud->stamp);
   cloud_waits_ = !at && cloud->frame != frames::kMap;
   Eigen::Isometry3d X_map_cloud = Eigen::Isometry3d::Identity();

@@ -76,7 +76,10 @@ void ThermalView::setAutomaticScale(bool automatic) {
 }
 
 void ThermalView::recolor() {
-  if (!image_) return;
+  if (!image_) {
+    colors_ = QImage();
+    return;
+  }
   scale_ = automatic_ && hasTemperatures(*image_) ? ThermalScale::fitted(*image_) : ThermalScale{};
   colors_ = colorize(*image_, scale_, map_);
 }

@@ -1,16 +1,22 @@
 #include "gui/link/replay_link.h"
 
+#include <QBuffer>
+#include <QImage>
 #include <QTemporaryDir>
 #include <QTest>
 
 #include <gtest/gtest.h>
 
+#include "common/record/foxglove.h"
 #include "common/record/record_writer.h"
 #include "common/record/run_topics.h"
 #include "common/record/schema.h"
+#include "common/wire/sensor.h"
 #include "common/wire/telemetry.h"
 #include "gui/models/station_models.h"
+#include "gui/views/camera/camera_tile.h"
 #include "gui/views/log/log_view.h"
+#include "gui/views/thermal/thermal_tile.h"
 
 namespace kiln::gui {
 namespace {
@@ -20,6 +26,16 @@ constexpr double kStart_s = 100.0;
 constexpr int kStatuses = 601;  // a minute at 10 Hz
 
 Stamp at(double s) { return Stamp{fromSeconds(s)}; }
+
+std::vector<std::uint8_t> smallJpeg() {
+  QImage picture(8, 8, QImage::Format_RGB888);
+  picture.fill(Qt::gray);
+  QBuffer buffer;
+  buffer.open(QIODevice::WriteOnly);
+  EXPECT_TRUE(picture.save(&buffer, "JPEG"));
+  const QByteArray& bytes = buffer.data();
+  return {bytes.begin(), bytes.end()};
+}
 
 /// One minute of statuses whose sequence number is the tenth of a second since the start.
 class ReplayLinkTest : public testing::Test {
@@ -35,7 +51,22 @@ class ReplayLinkTest : public testing::Test {
     const auto log =
         (*writer)->addChannel(run::topicName(Topic::Log), *protobufSchema("kiln.v1.LogBatch"));
     EXPECT_TRUE(log) << log.error();
+    const auto thermal = (*writer)->addChannel(run::topicName(Topic::Thermal),
+                                               *protobufSchema("kiln.v1.ThermalFrame"));
+    EXPECT_TRUE(thermal) << thermal.error();
+    const auto camera = (*writer)->addChannel(run::topicName(Topic::OperatorCamera),
+                                              *protobufSchema("foxglove.CompressedImage"));
+    EXPECT_TRUE(camera) << camera.error();
+    const std::vector<std::uint8_t> jpeg = smallJpeg();
     for (int i = 0; i < kStatuses; ++i) {
+      if (i >= 300) {  // pictures from 30 s on
+        const Stamp stamp = at(kStart_s + 0.1 * i);
+        const ThermalImage image{stamp, static_cast<std::uint64_t>(i), 0, 2, 1, {30000, 30100}};
+        EXPECT_TRUE((*writer)->write(*thermal, stamp, stamp, wire::encode(image)));
+        const JpegImage picture{stamp, static_cast<std::uint64_t>(i), "operator_camera", 8, 8,
+                                jpeg};
+        EXPECT_TRUE((*writer)->write(*camera, stamp, stamp, foxglove::encode(picture)));
+      }
       if (i % 100 == 50) {  // at 5 s, 15 s, ...
         const Stamp stamp = at(kStart_s + 0.1 * i);
         const LogBatch batch{{{stamp, 2, "mission", std::to_string(i)}}};
@@ -105,6 +136,31 @@ TEST_F(ReplayLinkTest, AfterAJumpBackTheLogHoldsNothingOfLater) {
       << view.toPlainText().toStdString();
   EXPECT_TRUE(view.toPlainText().contains("mission: 50")) << view.toPlainText().toStdString();
   for (const LogLine& line : models->log.lines()) EXPECT_LE(line.stamp, at(kStart_s + 10.0));
+}
+
+TEST_F(ReplayLinkTest, AJumpToBeforeTheFirstPictureShowsNoneOfLater) {
+  Theme theme;
+  const ThermalTile thermal_tile({theme, link->clock()}, *models);
+  const CameraTile camera_tile({theme, link->clock()}, *models);
+  link->open();
+  link->setPlaying(false);
+  for (int round = 0; round < 3; ++round) {
+    link->seek(at(kStart_s + 40.0));
+    ASSERT_TRUE(QTest::qWaitFor(
+        [&] { return seq() == 400 && models->thermal.image() && models->camera.image(); },
+        kPatience_ms))
+        << round;
+    link->seek(at(kStart_s + 20.0));
+    ASSERT_TRUE(QTest::qWaitFor(
+        [&] { return seq() == 200 && !models->thermal.hasData() && !models->camera.hasData(); },
+        kPatience_ms))
+        << round;
+    EXPECT_EQ(models->thermal.image(), nullptr);
+    EXPECT_EQ(models->camera.image(), nullptr);
+  }
+  link->seek(at(kStart_s + 31.0));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return models->thermal.hasData(); }, kPatience_ms));
+  EXPECT_EQ(models->thermal.ageLevel(), AgeLevel::Fresh);
 }
 
 // The models forget at a jump. What comes of the new time must come after that, or it is forgotten

@@ -123,6 +123,22 @@ TEST(Walkers, AreSeenByTheLidarOnlyWhileTheyAreThere) {
   EXPECT_NE(RayScene::material(look(rays, from, to)), Material::Person);
 }
 
+TEST(PersonInWay, StepsToThePlaceStandsThereAndStepsBack) {
+  auto world = std::move(*World::create(withFault({}, "person_in_way=6.6,0@1:3"), 1));
+  const auto peopleAt = [&](double t_s) {
+    world->advance(Stamp{fromSeconds(t_s)});
+    return world->truth().people;
+  };
+  EXPECT_TRUE(peopleAt(0.9).empty());
+  const auto stepping = peopleAt(1.5);
+  ASSERT_EQ(stepping.size(), 1u);
+  EXPECT_GT(stepping[0].y(), 1.0);
+  const auto standing = peopleAt(3.5);
+  ASSERT_EQ(standing.size(), 1u);
+  EXPECT_NEAR((standing[0] - Eigen::Vector3d(6.6, 0, 0)).norm(), 0.0, 1e-9);
+  EXPECT_TRUE(peopleAt(6.5).empty());
+}
+
 TEST(ViewBlocked, HidesHalfOfTheScanAndOnlyFromTheLidar) {
   const auto scanOf = [](const WorldConfig& config) {
     auto world = std::move(*World::create(config, 1));
