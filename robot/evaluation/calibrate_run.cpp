@@ -111,6 +111,7 @@ Result<EvaluationResult> calibrateSensors(const SweepOptions& options) {
   JetErrors nozzle;
   std::vector<double> wall_s, simulated_s;
   json runs = json::array();
+  double collisions_total = 0.0;
   for (int seed = options.first_seed; seed <= options.last_seed; ++seed) {
     const SteadyClock clock;
     const Stamp begin = clock.now();
@@ -119,7 +120,9 @@ Result<EvaluationResult> calibrateSensors(const SweepOptions& options) {
     wall_s.push_back(toSeconds(clock.now() - begin));
     simulated_s.push_back(done->simulated_s);
     const json truth = json::parse(done->truth_json);
-    json run{{"seed", seed}, {"report", done->found.report}};
+    const json collisions = truth.value("collisions", json::array());
+    collisions_total += static_cast<double>(collisions.size());
+    json run{{"seed", seed}, {"report", done->found.report}, {"collisions", collisions}};
     run["lidar"] =
         lidar.add(truth, robot->X_flange_lidar, done->found.lidar.flange_lidar.X_parent_sensor);
     run["thermal"] = thermal.add(truth, robot->X_flange_thermal,
@@ -145,6 +148,7 @@ Result<EvaluationResult> calibrateSensors(const SweepOptions& options) {
       {"nozzle_refused", static_cast<double>(runs.size() - nozzle.after_mm.size()), "", "", true});
   out.figures.push_back({"operator_camera_refused",
                          static_cast<double>(runs.size() - camera.after_m.size()), "", "", true});
+  out.figures.push_back({"collisions_total", collisions_total, "", "", true});
   out.figures.push_back({"simulated_median_s", median(simulated_s), "s", "", true});
   out.figures.push_back({"wall_median_s", median(wall_s), "s", "", true});
   out.runs_json = runs.dump();

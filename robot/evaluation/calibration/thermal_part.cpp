@@ -85,22 +85,31 @@ Result<void> PlateWatch::lookFrom(int first, int count, const Eigen::Vector3d& p
   const auto postures = rig_.reachable(first, count, [&](int i) { return posture(i, plate); });
   const auto visited = rig_.visit(postures, [this] { return lookOnceHot(); });
   if (!visited) return tl::make_unexpected(visited.error());
+  logger("calibrate")
+      ->info("the hot plate was seen {} times, after {} of {} postures", seen_.size(), *visited,
+             count);
   return {};
 }
 
-/// The robot was put down by eye: a first guess of the plate's place from a few sightings lets the
-/// others look where it is.
+/// The robot was put down by eye: a guess of the plate's place from the first sightings lets the
+/// others look where it is. Where few saw it, some more look with the better guess.
 Result<ThermalCalibration> PlateWatch::calibrate() {
-  constexpr int kRough = 6;
-  if (auto begun = lookFrom(0, kRough, plate_); !begun) return tl::make_unexpected(begun.error());
-  ThermalCalibrator::Config rough = config_.calibrator;
-  rough.min_sightings = kRough;
+  constexpr int kRough = 6, kTries = 8 * kRough, kMoreRounds = 3;
   const Eigen::Isometry3d mount = rig_.nominal().X_flange_thermal.pose();
-  const auto guess = ThermalCalibrator(rough).calibrate(seen_, mount, plate_, normal_);
-  const Eigen::Vector3d plate = guess ? guess->p_base_plate : plate_;
-  if (auto looked = lookFrom(8 * kRough, config_.postures - kRough, plate); !looked)
-    return tl::make_unexpected(looked.error());
-  logger("calibrate")->info("the hot plate was seen {} times", seen_.size());
+  ThermalCalibrator::Config rough = config_.calibrator;
+  rough.min_sightings = 4;
+  const auto wanted = static_cast<std::size_t>(config_.postures * config_.images_a_posture / 2);
+  if (auto begun = lookFrom(0, kRough, plate_); !begun) return tl::make_unexpected(begun.error());
+  int first = kTries, count = config_.postures - kRough;
+  for (int round = 0; round <= kMoreRounds; ++round) {
+    const auto guess = ThermalCalibrator(rough).calibrate(seen_, mount, plate_, normal_);
+    const Eigen::Vector3d plate = guess ? guess->p_base_plate : plate_;
+    if (auto looked = lookFrom(first, count, plate); !looked)
+      return tl::make_unexpected(looked.error());
+    if (seen_.size() >= wanted) break;
+    first += 8 * count;
+    count = kRough;
+  }
   return ThermalCalibrator(config_.calibrator).calibrate(seen_, mount, plate_, normal_);
 }
 
