@@ -104,7 +104,7 @@ struct DriveTo::Impl {
     status = {SkillPhase::Running, 0.0, "starting", ""};
     path.reset();
     clock_s = 0.0;
-    rate = 1.0;
+    rate = take_off = 1.0;
     arrived = false;
     settled_since.reset();
     began = last = now;
@@ -171,10 +171,18 @@ struct DriveTo::Impl {
     clock_s += rate * dt;
   }
 
+  /// Share of the wished speed that edge and obstacles leave.
+  double allowedShare(double speed) const {
+    return std::min(edgeRate(), speed > speed_limit ? std::max(0.0, speed_limit) / speed : 1.0);
+  }
+
+  /// The reference's velocity and the correction. While the wheels turn, and until the base has
+  /// taken off, that of a little later: the slow beginning alone would leave the direction to the
+  /// correction, and the wheels would have to turn again.
   Twist2 command(const BasePath::Point& ref, const Pose2& here, bool aligning) const {
     Eigen::Vector2d v_map(ref.v_map.vx_mps, ref.v_map.vy_mps);
     double wz = ref.v_map.wz_radps;
-    if (aligning || clock_s <= 0.0) {
+    if (aligning || take_off < 1.0 || clock_s <= 0.0) {
       const BasePath::Point ahead = path->at(clock_s + kLookAhead);
       v_map = {ahead.v_map.vx_mps, ahead.v_map.vy_mps};
       wz = ahead.v_map.wz_radps;
@@ -187,6 +195,12 @@ struct DriveTo::Impl {
     const double yaw_error = wrapAngle(ref.X_map_base.yaw_rad - here.yaw_rad);
     wz += std::clamp(config.yaw_gain * yaw_error, -config.max_correction_radps,
                      config.max_correction_radps);
+    if (!aligning && take_off < 1.0) {
+      const double share = std::min(
+          take_off, allowedShare(std::hypot(v_map.norm(), path_config.turn_weight_m * wz)));
+      v_map *= share;
+      wz *= share;
+    }
     const double c = std::cos(here.yaw_rad), s = std::sin(here.yaw_rad);
     return {c * v_map.x() + s * v_map.y(), -s * v_map.x() + c * v_map.y(), wz};
   }
@@ -230,6 +244,7 @@ struct DriveTo::Impl {
     const double lag =
         std::hypot(lag_ref.X_map_base.x_m - here.x_m, lag_ref.X_map_base.y_m - here.y_m);
     advanceReference(dt, lag, tracking.aligning);
+    take_off = tracking.aligning ? 0.0 : std::min(1.0, take_off + kRateChange * dt);
     const BasePath::Point ref = path->at(clock_s);
     next = path->nextWaypoint(ref.s);
     const Pose2& goal = waypoints.back();
@@ -266,6 +281,7 @@ struct DriveTo::Impl {
   Stamp began, last;
   std::optional<Stamp> settled_since;
   double clock_s = 0.0, rate = 1.0;
+  double take_off = 1.0;  ///< from 0 to 1 after the wheels have turned
   int next = 0;
   bool arrived = false;
 };

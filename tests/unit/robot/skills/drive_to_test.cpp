@@ -108,6 +108,25 @@ TEST_F(DriveToTest, StaysSmoothAndArrivesWithNoiseAndJumpsOfThePose) {
   EXPECT_LT(std::hypot(believed.x_m - 3.0, believed.y_m - 0.5), 0.03);
 }
 
+/// The mapping drive turns and moves at once, and localisation corrects all the way.
+TEST_F(DriveToTest, TakesOffWhereItsWheelsPointAndDoesNotTurnThemAgainAndAgain) {
+  noise_m = 0.006;
+  std::vector<Pose2> way;
+  for (const auto& waypoint : arena.mapping_path) way.push_back(waypoint.pose());
+  drive.start(way, clock.now());
+  polling = true;
+  status = drive.poll(clock.now());
+  int stops = 0;
+  for (bool before = true; status.phase == SkillPhase::Running;) {
+    tick();
+    const bool aligning = controller.tracking().aligning;
+    if (aligning && !before) ++stops;
+    before = aligning;
+  }
+  ASSERT_EQ(status.phase, SkillPhase::Done) << status.failure_code << ": " << status.text;
+  EXPECT_LE(stops, 20);
+}
+
 TEST_F(DriveToTest, IsThereAtOnceWhenItStandsThere) {
   run({{0, 0, 0}}, 3.0);
   EXPECT_EQ(status.phase, SkillPhase::Done) << status.text;
