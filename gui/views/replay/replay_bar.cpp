@@ -12,7 +12,7 @@
 namespace kiln::gui {
 
 namespace {
-constexpr int kHeight_px = 44, kTitle_px = 250, kTimes_px = 128, kSpeed_px = 52;
+constexpr int kHeight_px = 44, kTitle_px = 360, kTimes_px = 128, kSpeed_px = 52;
 constexpr std::array<double, 8> kSpeeds{0.1, 0.25, 0.5, 1.0, 2.0, 4.0, 7.0, 10.0};
 }  // namespace
 

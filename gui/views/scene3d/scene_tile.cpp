@@ -201,9 +201,12 @@ void SceneTile::refresh() {
   canvas_->show(snapshot);
   layers_->show(snapshot);
   const QString refusal = QString::fromStdString(state_.cloudRefusal());
-  QString info = canvas_->usesOpenGl()
-                     ? tr("live · %1").arg(pointsText(snapshot.cloud))
-                     : tr("top view, no OpenGL · %1").arg(pointsText(snapshot.cloud));
+  const RobotStatus* status = models_.status.status();
+  const bool recorded = status != nullptr && status->environment == Environment::Replay;
+  QString info = (!canvas_->usesOpenGl() ? tr("top view, no OpenGL · %1")
+                  : recorded             ? tr("recorded · %1")
+                                         : tr("live · %1"))
+                     .arg(pointsText(snapshot.cloud));
   if (layers_->isHidden()) info = tr("F1 layers · ") + info;
   setInfo(refusal.isEmpty() ? info : refusal);
 }
