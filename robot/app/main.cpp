@@ -74,8 +74,10 @@ void addOptions(CLI::App& app, Arguments& a) {
   app.add_option("--until-s", a.until_s,
                  "end after so many seconds of robot time, mission over or not (default: never)")
       ->check(CLI::Range(0.1, 1e6));
-  app.add_option("--report", a.report,
-                 "write the mission report (JSON) at the end; wall times go to FILE.timing");
+  app.add_option(
+      "--report", a.report,
+      "write the mission report (JSON) at the end; wall times and slips of the loops go to "
+      "FILE.timing");
   app.add_option("--record", a.record_dir,
                  "record this run, into this folder (default: recordings in the state folder)")
       ->expected(0, 1);
@@ -122,10 +124,15 @@ Result<RobotSettings> loadSettings(const Arguments& a) {
   return settings;
 }
 
-Result<void> writeReports(const Arguments& a, const Robot& robot, Stamp now) {
+Result<void> writeReports(const Arguments& a, const Robot& robot, const Executor& executor,
+                          Stamp now) {
   if (a.report.empty()) return {};
   if (auto written = writeFileAtomically(a.report, robot.reportJson(now)); !written) return written;
-  const nlohmann::json timing{{"locate_s", robot.locateCosts()}};
+  nlohmann::json timing{{"locate_s", robot.locateCosts()}};
+  for (const TickStatistics& tick : executor.statistics()) {
+    timing["ticks"][tick.name] = {
+        {"count", tick.ticks}, {"slips", tick.slips}, {"worst_late_s", tick.worst_late_s}};
+  }
   return writeFileAtomically(a.report + ".timing", timing.dump() + "\n");
 }
 
@@ -249,7 +256,7 @@ int run(Arguments a) {
     });
     runtime.threads->stop();
   }
-  if (auto written = writeReports(a, **robot, runtime.clock().now()); !written)
+  if (auto written = writeReports(a, **robot, runtime.executor(), runtime.clock().now()); !written)
     return fail(written.error());
   if (g_termination_signal != 0) return 128 + g_termination_signal;
   return !a.exit_when_done || (*robot)->missionSucceeded() ? kSuccess : kMissionFailed;
