@@ -27,7 +27,7 @@ class CameraCalibrator {
     double sample_m = 0.02;       ///< between two points of an edge
     double search_px = 18.0;      ///< across an edge, in the first rounds; a third at last
     double min_step_grey = 14.0;  ///< difference of brightness that counts as an edge
-    double noise_px = 2.0;  ///< of a found edge point; neighbours on an edge err together
+    double noise_px = 2.0;        ///< of a found edge point; neighbours on an edge err together
     double prior_m = 0.006, prior_deg = 0.4;  ///< of the mounting: tolerance of the workshop
     int rounds = 14;
     int min_points = 40;
