@@ -10,6 +10,8 @@
 #include <ceres/ceres.h>
 #include <ceres/rotation.h>
 
+#include "robot/perception/calibration/mounting.h"
+
 namespace kiln {
 namespace {
 
@@ -62,33 +64,6 @@ struct PointToPlane {
   }
 };
 
-struct Prior {
-  double sigma[6];
-  template <class T>
-  bool operator()(const T* mount, T* residual) const {
-    for (int i = 0; i < 6; ++i) residual[i] = mount[i] / sigma[i];
-    return true;
-  }
-};
-
-struct BiasPrior {
-  double sigma_m;
-  template <class T>
-  bool operator()(const T* bias, T* residual) const {
-    residual[0] = bias[0] / sigma_m;
-    return true;
-  }
-};
-
-Eigen::Isometry3d poseOf(const std::array<double, 6>& mount) {
-  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
-  const Eigen::Vector3d turn(mount[0], mount[1], mount[2]);
-  if (turn.norm() > 0.0)
-    X.linear() = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();
-  X.translation() = Eigen::Vector3d(mount[3], mount[4], mount[5]);
-  return X;
-}
-
 using Cell = std::array<int, 3>;
 
 std::vector<Measured> gather(std::span<const StillScan> scans, double max_range_m, double thin_m) {
@@ -113,7 +88,7 @@ std::vector<Measured> gather(std::span<const StillScan> scans, double max_range_
 double rmsOf(const std::vector<Patch>& patches, std::span<const StillScan> scans,
              const Eigen::Isometry3d& X_flange_lidar, const Unknowns& unknowns) {
   double sum = 0.0, count = 0.0;
-  const Eigen::Isometry3d X = X_flange_lidar * poseOf(unknowns.mount);
+  const Eigen::Isometry3d X = X_flange_lidar * mountingError(unknowns.mount.data());
   for (const Patch& patch : patches) {
     // Against the best plane for this mounting, not against the one of the estimate.
     Eigen::Vector3d mean = Eigen::Vector3d::Zero();
@@ -159,7 +134,7 @@ std::vector<Patch> findPatches(const LidarCalibrator::Config& config,
                                std::span<const StillScan> scans,
                                const Eigen::Isometry3d& X_flange_lidar, const Unknowns& unknowns,
                                double flat_m) {
-  const Eigen::Isometry3d X = X_flange_lidar * poseOf(unknowns.mount);
+  const Eigen::Isometry3d X = X_flange_lidar * mountingError(unknowns.mount.data());
   std::map<Cell, std::vector<std::pair<const Measured*, Eigen::Vector3d>>> cells;
   for (const Measured& m : points) {
     const double range = m.p_lidar.norm();
@@ -210,23 +185,11 @@ double spreadOfNormals(const std::vector<Patch>& patches) {
   return 3.0 * Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(C / count).eigenvalues()[0];
 }
 
-/// How far the flange was turned about its second-best axis, radians rms.
-double secondTurn(std::span<const StillScan> scans) {
-  Eigen::Matrix3d C = Eigen::Matrix3d::Zero();
-  for (const StillScan& scan : scans) {
-    const Eigen::AngleAxisd turn(Eigen::Matrix3d(scans.front().X_base_flange.linear().transpose() *
-                                                 scan.X_base_flange.linear()));
-    const Eigen::Vector3d w = turn.angle() * turn.axis();
-    C += w * w.transpose();
-  }
-  return std::sqrt(std::max(
-      0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(C / static_cast<double>(scans.size()))
-               .eigenvalues()[1]));
+std::vector<Eigen::Isometry3d> flangePoses(std::span<const StillScan> scans) {
+  std::vector<Eigen::Isometry3d> out;
+  for (const StillScan& scan : scans) out.push_back(scan.X_base_flange);
+  return out;
 }
-
-}  // namespace
-
-namespace {
 
 void addResiduals(const LidarCalibrator::Config& config, std::vector<Patch>& patches,
                   std::span<const StillScan> scans, const Eigen::Isometry3d& X_flange_lidar,
@@ -243,11 +206,11 @@ void addResiduals(const LidarCalibrator::Config& config, std::vector<Patch>& pat
   }
   const double t = config.prior_m, r = config.prior_deg * kDeg;
   problem.AddResidualBlock(
-      new ceres::AutoDiffCostFunction<Prior, 6, 6>(new Prior{{r, r, r, t, t, t}}), nullptr,
+      new ceres::AutoDiffCostFunction<Prior<6>, 6, 6>(new Prior<6>{{r, r, r, t, t, t}}), nullptr,
       unknowns.mount.data());
   for (double& bias : unknowns.bias_m)
     problem.AddResidualBlock(
-        new ceres::AutoDiffCostFunction<BiasPrior, 1, 1>(new BiasPrior{config.bias_sigma_m}),
+        new ceres::AutoDiffCostFunction<Prior<1>, 1, 1>(new Prior<1>{{config.bias_sigma_m}}),
         nullptr, &bias);
 }
 
@@ -270,18 +233,6 @@ Result<void> solve(std::vector<Patch>& patches, Unknowns& unknowns, ceres::Probl
                    summary.BriefReport());
 }
 
-void setSigmas(ceres::Problem& problem, const double* mount, Extrinsics& out) {
-  ceres::Covariance::Options options;
-  options.algorithm_type = ceres::SPARSE_QR;
-  ceres::Covariance estimator(options);
-  const std::vector<std::pair<const double*, const double*>> wanted{{mount, mount}};
-  if (!estimator.Compute(wanted, &problem)) return;
-  Eigen::Matrix<double, 6, 6, Eigen::RowMajor> C;
-  estimator.GetCovarianceBlock(mount, mount, C.data());
-  out.sigma_rad = C.diagonal().head<3>().cwiseSqrt();
-  out.sigma_m = C.diagonal().tail<3>().cwiseSqrt();
-}
-
 Result<void> enoughScans(std::span<const StillScan> scans) {
   constexpr std::size_t kFewest = 6;
   constexpr double kLeastTurn = 10.0 * kDeg;
@@ -289,7 +240,7 @@ Result<void> enoughScans(std::span<const StillScan> scans) {
     return makeError(ErrorCode::Degenerate,
                      "{} scans are too few for the LiDAR's mounting; {} at least", scans.size(),
                      kFewest);
-  if (secondTurn(scans) < kLeastTurn)
+  if (secondTurn(flangePoses(scans)) < kLeastTurn)
     return makeError(ErrorCode::Degenerate,
                      "the flange was turned about one axis only; the LiDAR's mounting needs two");
   return {};
@@ -321,9 +272,9 @@ Result<LidarCalibration> LidarCalibrator::calibrate(std::span<const StillScan> s
     addResiduals(config_, patches, scans, X_flange_lidar, unknowns, problem);
     if (auto solved = solve(patches, unknowns, problem); !solved)
       return tl::make_unexpected(solved.error());
-    if (round + 1 == config_.rounds) setSigmas(problem, unknowns.mount.data(), found);
+    if (round + 1 == config_.rounds) takeSigmas(problem, unknowns.mount.data(), found);
   }
-  found.X_parent_sensor = X_flange_lidar * poseOf(unknowns.mount);
+  found.X_parent_sensor = X_flange_lidar * mountingError(unknowns.mount.data());
   found.rms_before = rmsOf(patches, scans, X_flange_lidar, {});
   found.rms_after = rmsOf(patches, scans, X_flange_lidar, unknowns);
   found.unit = "m";

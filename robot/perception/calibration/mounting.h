@@ -1,8 +1,17 @@
 #pragma once
 
 #include <array>
+#include <span>
+#include <string>
 
 #include <Eigen/Geometry>
+
+#include "common/core/error.h"
+#include "robot/perception/calibration/extrinsics.h"
+
+namespace ceres {
+class Problem;
+}
 
 namespace kiln {
 
@@ -27,5 +36,17 @@ struct Prior {
     return true;
   }
 };
+
+/// How far the flange was turned about the least used but one of its axes, radians rms: a mounting
+/// is observable only if it was turned about two. @pre not empty
+[[nodiscard]] double secondTurn(std::span<const Eigen::Isometry3d> X_base_flange);
+
+/// Solves a problem of a few dozen unknowns, on one thread: the same answer each time. Error:
+/// Degenerate, naming `part`, e.g. "nozzle".
+[[nodiscard]] Result<void> solveMounting(ceres::Problem& problem, const std::string& part);
+
+/// One sigma of the six unknowns of a mounting in a solved problem; as it was where the problem
+/// does not hold them.
+void takeSigmas(ceres::Problem& problem, const double* mount, Extrinsics& out);
 
 }  // namespace kiln

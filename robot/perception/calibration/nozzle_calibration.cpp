@@ -147,14 +147,11 @@ void addPriors(ceres::Problem& problem, Unknowns& x, const NozzleCalibrator::Con
 NozzleCalibration gathered(ceres::Problem& problem, const Unknowns& x) {
   NozzleCalibration out;
   out.flow = 1.0 + x.flow[0];
+  takeSigmas(problem, x.nozzle.data(), out.flange_nozzle);
   ceres::Covariance covariance{ceres::Covariance::Options()};
-  const double *nozzle = x.nozzle.data(), *flow = x.flow.data();
-  const std::vector<std::pair<const double*, const double*>> wanted{{nozzle, nozzle}, {flow, flow}};
+  const double* flow = x.flow.data();
+  const std::vector<std::pair<const double*, const double*>> wanted{{flow, flow}};
   if (!covariance.Compute(wanted, &problem)) return out;
-  Eigen::Matrix<double, 6, 6, Eigen::RowMajor> C;
-  covariance.GetCovarianceBlock(nozzle, nozzle, C.data());
-  out.flange_nozzle.sigma_rad = C.diagonal().head<3>().cwiseSqrt();
-  out.flange_nozzle.sigma_m = C.diagonal().tail<3>().cwiseSqrt();
   double variance = 0.0;
   covariance.GetCovarianceBlock(flow, flow, &variance);
   out.flow_sigma = std::sqrt(variance);
@@ -193,17 +190,9 @@ Result<NozzleCalibration> NozzleCalibrator::calibrate(std::span<const LandedJet>
         x.flow.data());
   }
   addPriors(problem, x, config_, flange_thermal);
-  ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_QR;
-  options.max_num_iterations = 100;
-  options.num_threads = 1;
-  options.logging_type = ceres::SILENT;
-  ceres::Solver::Summary summary;
   const double before = rmsOf(scene, landed, x);
-  ceres::Solve(options, &problem, &summary);
-  if (!summary.IsSolutionUsable())
-    return makeError(ErrorCode::Degenerate, "the nozzle's mounting did not converge: {}",
-                     summary.BriefReport());
+  if (auto solved = solveMounting(problem, "nozzle"); !solved)
+    return tl::make_unexpected(solved.error());
   NozzleCalibration out = gathered(problem, x);
   out.flange_nozzle.X_parent_sensor = X_flange_nozzle * mountingError(x.nozzle.data());
   out.flange_nozzle.rms_before = before;

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
 #include <ceres/ceres.h>
 
 #include "robot/perception/calibration/mounting.h"
@@ -60,18 +59,10 @@ double rmsOf(const Scene& scene, std::span<const PlateSighting> sightings, const
   return count > 0.0 ? std::sqrt(sum / count) : 0.0;
 }
 
-/// How far the flange was turned about its least-used axis, radians rms.
-double leastTurn(std::span<const PlateSighting> sightings) {
-  Eigen::Matrix3d C = Eigen::Matrix3d::Zero();
-  for (const PlateSighting& seen : sightings) {
-    const Eigen::AngleAxisd turn(Eigen::Matrix3d(
-        sightings.front().X_base_flange.linear().transpose() * seen.X_base_flange.linear()));
-    const Eigen::Vector3d w = turn.angle() * turn.axis();
-    C += w * w.transpose();
-  }
-  C /= static_cast<double>(sightings.size());
-  return std::sqrt(
-      std::max(0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(C).eigenvalues()[1]));
+std::vector<Eigen::Isometry3d> flangePoses(std::span<const PlateSighting> sightings) {
+  std::vector<Eigen::Isometry3d> out;
+  for (const PlateSighting& seen : sightings) out.push_back(seen.X_base_flange);
+  return out;
 }
 
 }  // namespace
@@ -96,7 +87,7 @@ Result<ThermalCalibration> ThermalCalibrator::calibrate(std::span<const PlateSig
         ErrorCode::Degenerate,
         "the hot plate was seen from {} postures; {} are needed, and a plate that is hot",
         sightings.size(), config_.min_sightings);
-  if (leastTurn(sightings) < kLeastTurn)
+  if (secondTurn(flangePoses(sightings)) < kLeastTurn)
     return makeError(ErrorCode::Degenerate,
                      "the flange was turned about one axis only; the thermal camera's mounting "
                      "needs two");
@@ -119,35 +110,20 @@ Result<ThermalCalibration> ThermalCalibrator::calibrate(std::span<const PlateSig
   problem.AddResidualBlock(new ceres::AutoDiffCostFunction<Prior<4>, 4, 4>(
                                new Prior<4>{{w, w, w, config_.yaw_prior_deg * kDeg}}),
                            nullptr, where.data());
-  ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_QR;
-  options.max_num_iterations = 100;
-  options.num_threads = 1;
-  options.logging_type = ceres::SILENT;
-  ceres::Solver::Summary summary;
   // The residuals before: the best plate for the nominal mounting.
   problem.SetParameterBlockConstant(mount.data());
-  ceres::Solve(options, &problem, &summary);
+  (void)solveMounting(problem, "thermal camera");  // the second one tells
   ThermalCalibration out;
   out.flange_thermal.rms_before = rmsOf(scene, sightings, mount.data(), where.data());
   problem.SetParameterBlockVariable(mount.data());
-  ceres::Solve(options, &problem, &summary);
-  if (!summary.IsSolutionUsable())
-    return makeError(ErrorCode::Degenerate, "the thermal camera's mounting did not converge: {}",
-                     summary.BriefReport());
+  if (auto solved = solveMounting(problem, "thermal camera"); !solved)
+    return tl::make_unexpected(solved.error());
   out.flange_thermal.X_parent_sensor = X_flange_thermal * mountingError(mount.data());
   out.flange_thermal.rms_after = rmsOf(scene, sightings, mount.data(), where.data());
   out.flange_thermal.unit = "px";
   out.flange_thermal.views = out.flange_thermal.measurements = static_cast<int>(sightings.size());
   out.p_base_plate = p_base_plate + Eigen::Vector3d(where[0], where[1], where[2]);
-  ceres::Covariance covariance{ceres::Covariance::Options()};
-  const std::vector<std::pair<const double*, const double*>> wanted{{mount.data(), mount.data()}};
-  if (covariance.Compute(wanted, &problem)) {
-    Eigen::Matrix<double, 6, 6, Eigen::RowMajor> C;
-    covariance.GetCovarianceBlock(mount.data(), mount.data(), C.data());
-    out.flange_thermal.sigma_rad = C.diagonal().head<3>().cwiseSqrt();
-    out.flange_thermal.sigma_m = C.diagonal().tail<3>().cwiseSqrt();
-  }
+  takeSigmas(problem, mount.data(), out.flange_thermal);
   return out;
 }
 
