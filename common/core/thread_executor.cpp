@@ -28,7 +28,7 @@ bool ThreadExecutor::post(Job job) {
     }
     jobs_.push_back(std::move(job));
   }
-  wake_.notify_one();
+  wake_pool_.notify_one();
   return true;
 }
 
@@ -56,7 +56,8 @@ void ThreadExecutor::start() {
 
 void ThreadExecutor::stop() {
   for (auto& thread : threads_) thread.request_stop();
-  wake_.notify_all();
+  wake_tick_.notify_all();
+  wake_pool_.notify_all();
   threads_.clear();  // joins
 }
 
@@ -68,7 +69,7 @@ void ThreadExecutor::runPeriodic(std::stop_token stop, Periodic& periodic) {
   while (!stop.stop_requested()) {
     const Duration wait = due - clock_.now();
     if (wait > Duration::zero()) {
-      wake_.wait_for(lock, stop, wait, [&] { return clock_.now() >= due; });
+      wake_tick_.wait_for(lock, stop, wait, [&] { return clock_.now() >= due; });
       if (stop.stop_requested()) return;
       if (clock_.now() < due) continue;
     }
@@ -87,7 +88,7 @@ void ThreadExecutor::runPeriodic(std::stop_token stop, Periodic& periodic) {
 
 void ThreadExecutor::runPool(std::stop_token stop) {
   std::unique_lock lock(mutex_);
-  while (wake_.wait(lock, stop, [this] { return !jobs_.empty(); })) {
+  while (wake_pool_.wait(lock, stop, [this] { return !jobs_.empty(); })) {
     Job job = std::move(jobs_.front());
     jobs_.pop_front();
     lock.unlock();

@@ -12,6 +12,11 @@ namespace {
 constexpr double kHalfScan_s = 0.05;
 constexpr int kTrackSamples = 26;  // every 4 ms of a revolution at 10 Hz: joints come each 8 ms
 
+/// When the scan's last point was measured.
+Stamp endOf(const PointCloud& scan) {
+  return scan.stamp + fromSeconds(scan.time_offset_s.empty() ? 0.0 : scan.time_offset_s.back());
+}
+
 /// Joint angles over the scan, and the LiDAR's pose in the base frame of the scan's first point.
 struct ScanMotion {
   ArmTrack arm;
@@ -23,7 +28,7 @@ ScanMotion motionDuring(const PointCloud& scan, const RobotGeometry& robot,
   ScanMotion motion;
   const auto first = history.at(scan.stamp);
   if (!first) return motion;
-  const Duration length = fromSeconds(scan.time_offset_s.empty() ? 0.0 : scan.time_offset_s.back());
+  const Duration length = endOf(scan) - scan.stamp;
   const Pose2 X_base0_odom = inverse(first->X_odom_base);
   const Eigen::Isometry3d X_flange_lidar = robot.X_flange_lidar.pose();
   for (int i = 0; i < kTrackSamples; ++i) {
@@ -73,7 +78,7 @@ void PerceptionJobs::dispatch(Stamp now, Localizer& localizer, bool moving) {
 void PerceptionJobs::dispatchScan(Stamp now, Localizer& localizer, bool moving) {
   const auto scan = scans_.takeFresh();
   if (!scan) return;
-  last_scan_ = now;
+  last_scan_ = endOf(**scan);
   const bool searching = localizer.relocateTries() > 0;  // over the arena, a place a scan
   const double period_s =
       moving || searching ? config_.moving_fix_period_s : config_.resting_fix_period_s;
@@ -93,6 +98,7 @@ void PerceptionJobs::dispatchScan(Stamp now, Localizer& localizer, bool moving) 
 PerceptionJobs::ScanResult PerceptionJobs::processScan(
     const PointCloud& scan, const std::optional<AlignmentPrior>& prior) const {
   ScanResult result;
+  result.end = endOf(scan);
   result.prior = prior.value_or(AlignmentPrior{});
   const ScanMotion motion = motionDuring(scan, robot_, history_);
   auto filtered = self_filter_.filter(scan, motion.arm);
@@ -124,6 +130,18 @@ void PerceptionJobs::dispatchThermal() {
          return [this, result] { heat_results_.push(std::move(*result)); };
        }});
   if (!posted) ++refused_jobs_;
+}
+
+std::vector<PerceptionJobs::ScanResult> PerceptionJobs::takeScans() {
+  auto results = scan_results_.drain();
+  if (!results.empty()) last_cloud_ = results.back().end;
+  return results;
+}
+
+std::vector<PerceptionJobs::HeatResult> PerceptionJobs::takeHeat() {
+  auto results = heat_results_.drain();
+  if (!results.empty()) last_heat_ = results.back().image->stamp;
+  return results;
 }
 
 std::uint64_t PerceptionJobs::droppedFrames() const {

@@ -32,6 +32,7 @@ class PerceptionJobs {
   };
   struct ScanResult {
     PointCloudPtr cloud;  ///< motion-compensated, without the robot itself; frame base (or lidar)
+    Stamp end;            ///< when its last point was measured
     AlignmentPrior prior;
     std::optional<Result<ScanMatch>> match;  ///< nullopt: not tried this time
     double locate_s = 0.0;                   ///< wall time of it, in lockstep too
@@ -52,10 +53,14 @@ class PerceptionJobs {
   /// Posts jobs for what has arrived. `localizer` gives the prior; `moving` chooses how often to
   /// locate.
   void dispatch(Stamp now, Localizer& localizer, bool moving);
-  [[nodiscard]] std::vector<ScanResult> takeScans() { return scan_results_.drain(); }
-  [[nodiscard]] std::vector<HeatResult> takeHeat() { return heat_results_.drain(); }
+  [[nodiscard]] std::vector<ScanResult> takeScans();
+  [[nodiscard]] std::vector<HeatResult> takeHeat();
+  /// Stamps of the newest frames that came from the sensors (a scan: of its last point) ...
   [[nodiscard]] std::optional<Stamp> lastScan() const { return last_scan_; }
   [[nodiscard]] std::optional<Stamp> lastThermal() const { return last_thermal_; }
+  /// ... and of those whose results were taken: while a sensor delivers, the two go together.
+  [[nodiscard]] std::optional<Stamp> lastCloud() const { return last_cloud_; }
+  [[nodiscard]] std::optional<Stamp> lastHeat() const { return last_heat_; }
   [[nodiscard]] std::uint64_t droppedFrames() const;
 
  private:
@@ -77,7 +82,7 @@ class PerceptionJobs {
   BoundedQueue<ThermalImagePtr> images_{4, DropPolicy::Oldest};
   BoundedQueue<ScanResult> scan_results_{4, DropPolicy::Oldest};
   BoundedQueue<HeatResult> heat_results_{8, DropPolicy::Oldest};
-  std::optional<Stamp> last_scan_, last_thermal_, last_fix_try_;
+  std::optional<Stamp> last_scan_, last_thermal_, last_cloud_, last_heat_, last_fix_try_;
   std::uint64_t refused_jobs_ = 0;  ///< frames whose kind was still being worked on
 };
 

@@ -28,6 +28,8 @@ struct MapFit {
 struct PreflightInputs {
   bool devices_connected = false;
   std::optional<double> arm_age_s, base_age_s, pumps_age_s, lidar_age_s, thermal_age_s;
+  /// Age of what perception has delivered last, by the stamp of the frame that it was made of.
+  std::optional<double> cloud_age_s, heat_age_s;
   ArmSafetyMode arm_safety = ArmSafetyMode::Normal;
   bool thermal_usable = true;
   std::string thermal_refusal;
@@ -51,6 +53,7 @@ struct PreflightLimits {
   double device_age_s = 0.2;
   double lidar_age_s = 0.5;
   double thermal_age_s = 1.5;     ///< longer than one shutter freeze
+  double product_age_s = 1.0;     ///< of a cloud or heat detection whose sensor delivers
   double battery_min_v = 25.6;    ///< 3.2 V a cell
   double clock_error_s = 0.02;    ///< console.md section 3, row 15
   double pump_idle_a = 0.5;       ///< a pump at rest draws less
@@ -67,6 +70,9 @@ struct PreflightLimits {
 [[nodiscard]] std::vector<Check> preflight(const PreflightInputs& inputs,
                                            const PreflightLimits& limits);
 [[nodiscard]] bool allOk(const std::vector<Check>& checks);
+/// What perception owes: frames arrive and nothing is made of them ("no cloud for 3.1 s although the
+/// LiDAR delivers"). Empty: it keeps up, or its sensors are silent, which is their own row.
+[[nodiscard]] std::string lateProduct(const PreflightInputs& inputs, const PreflightLimits& limits);
 /// "LiDAR: no data for 2.1 s; check its cable and power" or empty.
 [[nodiscard]] std::string firstFailure(const std::vector<Check>& checks);
 

@@ -260,7 +260,9 @@ void Robot::Impl::obeyOperators(Stamp now) {
 
 void Robot::Impl::startWhenReady(Stamp now) {
   lookAtDisk(now);
-  checks = preflight(preflightInputs(now), settings.preflight);
+  const PreflightInputs found = preflightInputs(now);
+  checks = preflight(found, settings.preflight);
+  late_product = lateProduct(found, settings.preflight);
   if (resume_pending && allOk(checks)) {
     resume_pending = false;
     control.resumeMission(now);

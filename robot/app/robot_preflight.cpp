@@ -85,6 +85,8 @@ PreflightInputs Robot::Impl::preflightInputs(Stamp now) const {
   in.pumps_age_s = ageOf(stampOf(in.pumps), now);
   in.lidar_age_s = ageOf(perception.lastScan(), now);
   in.thermal_age_s = ageOf(perception.lastThermal(), now);
+  in.cloud_age_s = ageOf(perception.lastCloud(), now);
+  in.heat_age_s = ageOf(perception.lastHeat(), now);
   if (arm_state) in.arm_safety = arm_state->safety;
   if (base_state) in.battery_v = base_state->battery_v;
   if (last_heat && !last_heat->usable) {
