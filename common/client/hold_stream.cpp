@@ -24,11 +24,15 @@ CommandBody zeroOf(const CommandBody& body) {
 
 }  // namespace
 
-void HoldStream::hold(CommandBody setpoint, Monotonic::time_point now) {
+void HoldStream::hold(CommandBody setpoint, std::uint64_t press, Monotonic::time_point now) {
   const auto index = slotOf(setpoint);
   if (!index) return;
   Slot& slot = slots_[*index];
-  if (auto* macro = std::get_if<HoldMacro>(&setpoint); macro != nullptr && slot.held) {
+  if (press <= slot.over) return;
+  if (slot.held && press != slot.press) slot.over = slot.press;
+  const bool same = slot.held && press == slot.press;
+  slot.press = press;
+  if (auto* macro = std::get_if<HoldMacro>(&setpoint); macro != nullptr && same) {
     const auto& before = std::get<HoldMacro>(slot.body);
     // A restart is meant once a press, not with each repetition; until it is sent it must not get
     // lost either.
@@ -44,6 +48,7 @@ void HoldStream::release(const CommandBody& example) {
   const auto index = slotOf(example);
   if (!index || !slots_[*index].held) return;
   slots_[*index].held = false;
+  slots_[*index].over = slots_[*index].press;
   slots_[*index].zeros_left = kZeros;
 }
 
@@ -62,27 +67,27 @@ bool HoldStream::active() const {
                      [](const Slot& s) { return s.held || s.zeros_left > 0; });
 }
 
-std::vector<CommandBody> HoldStream::due(Monotonic::time_point now) {
+std::vector<HoldStream::Setpoint> HoldStream::due(Monotonic::time_point now) {
   for (Slot& slot : slots_) {
     if (slot.held && secondsBetween(slot.refreshed, now) > ttl_s_) release(slot.body);
   }
   // A little early is better than a period late: ticks are coarser than the period.
   if (!active() || (last_sent_ && secondsBetween(*last_sent_, now) < 0.9 * period_s_)) return {};
   last_sent_ = now;
-  std::vector<CommandBody> out;
+  std::vector<Setpoint> out;
   const bool others_held = anyHeld();
   bool zeros = false;
   for (Slot& slot : slots_) {
     if (slot.held) {
-      out.push_back(slot.body);
+      out.push_back({slot.body, slot.press});
       if (auto* macro = std::get_if<HoldMacro>(&slot.body)) macro->restart = false;
     } else if (slot.zeros_left > 0) {
       --slot.zeros_left;
       zeros = true;
-      if (others_held) out.push_back(zeroOf(slot.body));
+      if (others_held) out.push_back({zeroOf(slot.body), 0});
     }
   }
-  if (zeros && !others_held) out.emplace_back(ReleaseAll{});
+  if (zeros && !others_held) out.push_back({ReleaseAll{}, 0});
   return out;
 }
 

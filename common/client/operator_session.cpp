@@ -209,10 +209,12 @@ void OperatorSession::Impl::onTick() {
   const auto now = monotonicNow();
   std::unique_lock lock(mutex);
   if (const auto word = talk.due(now, toNanoseconds(clock.now()))) end->send(wire::encode(*word));
-  for (CommandBody& body : holds.due(now)) {
+  for (HoldStream::Setpoint& setpoint : holds.due(now)) {
     // Without a link the setpoint is not sent, and never later.
-    if (const auto command = makeCommand(std::move(body)))
+    if (auto command = makeCommand(std::move(setpoint.body))) {
+      command->press = setpoint.press;
       end->send(wire::encode(ToRobot{*command}));
+    }
   }
   for (CommandUpdate& update : tracker.expire(now)) updates.push_back(std::move(update));
   finishUpdates(lock);
@@ -246,6 +248,7 @@ std::optional<Command> OperatorSession::Impl::makeCommand(CommandBody body) {
                  ++last_nonce,
                  lease.mine ? lease.epoch : 0,
                  stampFromNanoseconds(*issued),
+                 0,
                  std::move(body)};
 }
 
@@ -284,9 +287,14 @@ std::uint64_t OperatorSession::send(CommandBody body) {
   return update.nonce;
 }
 
-void OperatorSession::hold(CommandBody setpoint) {
+std::uint64_t OperatorSession::press() {
   const std::lock_guard lock(impl_->mutex);
-  impl_->holds.hold(std::move(setpoint), monotonicNow());
+  return impl_->holds.press();
+}
+
+void OperatorSession::hold(CommandBody setpoint, std::uint64_t press) {
+  const std::lock_guard lock(impl_->mutex);
+  impl_->holds.hold(std::move(setpoint), press, monotonicNow());
 }
 
 void OperatorSession::release(const CommandBody& example) {

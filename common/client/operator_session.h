@@ -144,7 +144,10 @@ class OperatorSession {
   /// Hold-to-run: streams this setpoint (JogBase, JogArm, HoldPump, HoldMacro) at 25 Hz. One a
   /// kind; a new value replaces the old. The caller repeats it while the key is held (any rate
   /// above 5 Hz); a caller that hangs or forgets is a release after hold_ttl_s.
-  void hold(CommandBody setpoint);
+  /// @param press  from press(), taken when the control was pressed. A press that has ended, here
+  /// or on the robot, moves nothing any more: let go and press again.
+  void hold(CommandBody setpoint, std::uint64_t press);
+  [[nodiscard]] std::uint64_t press();
   /// Release edge: zero three times, then silence. No effect when nothing of the kind of `example`
   /// is held.
   void release(const CommandBody& example);

@@ -32,7 +32,10 @@ struct ChangeState {
 struct SetMode {
   Mode mode = Mode::Autonomous;
 };  ///< Autonomous, Supervised or Teleop
-struct ClearStop {};
+/// Ends the STOP that the operator saw (StopStatus::generation); a newer one stays.
+struct ClearStop {
+  std::uint64_t generation = 0;
+};
 struct ReleaseProtectiveStop {};
 struct ResetRobot {};  ///< competition reset: robot is carried back to its start
 struct SetSpeedScale {
@@ -94,6 +97,10 @@ struct Command {
   std::uint64_t nonce = 0;        ///< unique per client, for dedup and acks
   std::uint64_t lease_epoch = 0;  ///< the lease the sender believes to hold; 0 = none
   Stamp issued;                   ///< in ROBOT time, converted by the client's clock estimate
+  /// Setpoints: which press of a control holds it; grows with each press of a client. A hold belongs
+  /// to one press: when it has ended, whatever the reason, the same press moves nothing any more.
+  /// 0 is a release, and only a setpoint of zero may carry it.
+  std::uint64_t press = 0;
   CommandBody body;
 };
 [[nodiscard]] std::string_view commandName(const CommandBody& body);  ///< "jog_base", ...

@@ -68,6 +68,22 @@ std::string_view toString(StatusWord word) {
   return "?";
 }
 
+std::string_view toString(MissionPhase phase) {
+  switch (phase) {
+    case MissionPhase::Idle:
+      return "idle";
+    case MissionPhase::Waiting:
+      return "waiting";
+    case MissionPhase::Running:
+      return "running";
+    case MissionPhase::Held:
+      return "held";
+    case MissionPhase::Ended:
+      return "ended";
+  }
+  return "?";
+}
+
 std::string_view toString(Mode mode) {
   switch (mode) {
     case Mode::None:

@@ -56,7 +56,33 @@ struct StopStatus {
   bool latched = false;
   std::string source;  ///< who or what
   Stamp since;
-  bool standstill_proven = false;  ///< wheels, joints and pump currents all at rest, measured
+  /// Which STOP this is: counts every one since the daemon began, also those that found the latch
+  /// set. ClearStop names it.
+  std::uint64_t generation = 0;
+  /// Measured at rest by data that is fresh and finite: wheels, joints, pump currents.
+  bool base_at_rest = false, arm_at_rest = false, pumps_at_rest = false;
+  bool standstill_proven = false;  ///< latched, and all three at rest
+};
+/// Where the mission is in its life (state chart: robot/missions/common/mission_host.h).
+enum class MissionPhase : std::uint8_t { Idle, Waiting, Running, Held, Ended };
+[[nodiscard]] std::string_view toString(MissionPhase phase);
+/// Why a mission may not move; several may hold at once.
+enum class HoldReason : std::uint8_t {
+  OperatorPause,
+  Teleop,
+  Stop,
+  PositionLost,
+  ProtectiveStop,
+  OperatorLost,
+  Restored  ///< from a checkpoint, and not yet gone on
+};
+struct MissionHold {
+  HoldReason reason = HoldReason::OperatorPause;
+  std::string text;  ///< "paused by Ann"
+};
+/// Who gives each actuator its setpoints now: "mission", "jog", "macro"; empty = nobody.
+struct ActuatorWriters {
+  std::string base, arm, pumps;
 };
 struct MacroInfo {
   std::string name;  ///< "spray fire 1"
@@ -125,6 +151,9 @@ struct RobotStatus {
   std::vector<Alarm> alarms;
   std::vector<DropCount> drops;
   std::vector<std::string> operators;  ///< names of connected stations
+  MissionPhase phase = MissionPhase::Idle;
+  std::vector<MissionHold> holds;  ///< of a mission that is Held
+  ActuatorWriters writers;
 };
 
 /// Planned path, for the scene.
@@ -173,6 +202,6 @@ struct HelloReply {
   std::string mission_uuid;
   Environment environment = Environment::Sim;
 };
-inline constexpr std::uint32_t kProtocolVersion = 1;
+inline constexpr std::uint32_t kProtocolVersion = 2;
 
 }  // namespace kiln

@@ -63,6 +63,7 @@ void toProto(const Command& command, v1::Command& out) {
   out.set_nonce(command.nonce);
   out.set_lease_epoch(command.lease_epoch);
   out.set_issued_robot_ns(toNanoseconds(command.issued));
+  out.set_press(command.press);
   bodyToProto(command.body, out);
 }
 
@@ -76,6 +77,7 @@ Result<Command> fromProto(const v1::Command& in) {
   command.nonce = in.nonce();
   command.lease_epoch = in.lease_epoch();
   command.issued = stampFromNanoseconds(in.issued_robot_ns());
+  command.press = in.press();
   command.body = std::move(*body);
   return command;
 }

@@ -23,7 +23,9 @@ struct BodyWriter {
     out.mutable_change_state()->set_to(validUtf8(b.to));
   }
   void operator()(const SetMode& b) const { out.set_set_mode(static_cast<std::uint32_t>(b.mode)); }
-  void operator()(const ClearStop&) const { out.mutable_clear_stop(); }
+  void operator()(const ClearStop& b) const {
+    out.mutable_clear_stop()->set_generation(b.generation);
+  }
   void operator()(const ReleaseProtectiveStop&) const { out.mutable_release_protective_stop(); }
   void operator()(const ResetRobot&) const { out.mutable_reset(); }
   void operator()(const SetSpeedScale& b) const { out.set_set_speed_scale(b.scale); }
@@ -91,7 +93,7 @@ Result<CommandBody> bodyFromProto(const v1::Command& in) {
     case v1::Command::kSetMode:
       return setModeFromProto(in.set_mode());
     case v1::Command::kClearStop:
-      return ClearStop{};
+      return ClearStop{in.clear_stop().generation()};
     case v1::Command::kReleaseProtectiveStop:
       return ReleaseProtectiveStop{};
     case v1::Command::kReset:

@@ -80,6 +80,30 @@ MacroStatus fromProto(const v1::MacroStatus& in) {
   return {in.running(), in.step(), in.steps(), in.step_text(), in.progress(), in.last_result()};
 }
 
+void toProto(const StopStatus& stop, v1::StopStatus& out) {
+  out.set_latched(stop.latched);
+  out.set_source(validUtf8(stop.source));
+  out.set_since_ns(toNanoseconds(stop.since));
+  out.set_generation(stop.generation);
+  out.set_base_at_rest(stop.base_at_rest);
+  out.set_arm_at_rest(stop.arm_at_rest);
+  out.set_pumps_at_rest(stop.pumps_at_rest);
+  out.set_standstill_proven(stop.standstill_proven);
+}
+
+StopStatus fromProto(const v1::StopStatus& in) {
+  StopStatus stop;
+  stop.latched = in.latched();
+  stop.source = in.source();
+  stop.since = stampFromNanoseconds(in.since_ns());
+  stop.generation = in.generation();
+  stop.base_at_rest = in.base_at_rest();
+  stop.arm_at_rest = in.arm_at_rest();
+  stop.pumps_at_rest = in.pumps_at_rest();
+  stop.standstill_proven = in.standstill_proven();
+  return stop;
+}
+
 void toProto(const RecordingStatus& recording, v1::RecordingStatus& out) {
   out.set_on(recording.on);
   out.set_file(validUtf8(recording.file));
@@ -112,6 +136,11 @@ void listsToProto(const RobotStatus& status, v1::RobotStatus& out) {
     row.set_dropped(drop.dropped);
   }
   for (const std::string& name : status.operators) out.add_operators(validUtf8(name));
+  for (const MissionHold& hold : status.holds) {
+    v1::MissionHold& row = *out.add_holds();
+    row.set_reason(static_cast<std::uint32_t>(hold.reason));
+    row.set_text(validUtf8(hold.text));
+  }
 }
 
 Result<void> listsFromProto(const v1::RobotStatus& in, RobotStatus& status) {
@@ -125,6 +154,11 @@ Result<void> listsFromProto(const v1::RobotStatus& in, RobotStatus& status) {
   }
   for (const v1::DropCount& row : in.drops()) status.drops.push_back({row.topic(), row.dropped()});
   status.operators.assign(in.operators().begin(), in.operators().end());
+  for (const v1::MissionHold& row : in.holds()) {
+    const auto reason = toEnum(row.reason(), HoldReason::Restored, "hold reason");
+    if (!reason) return tl::make_unexpected(reason.error());
+    status.holds.push_back({*reason, row.text()});
+  }
   return {};
 }
 
@@ -135,6 +169,9 @@ Result<void> enumsFromProto(const v1::RobotStatus& in, RobotStatus& status) {
   if (!mode) return tl::make_unexpected(mode.error());
   const auto word = toEnum(in.word(), StatusWord::Stopped, "status word");
   if (!word) return tl::make_unexpected(word.error());
+  const auto phase = toEnum(in.mission_phase(), MissionPhase::Ended, "mission phase");
+  if (!phase) return tl::make_unexpected(phase.error());
+  status.phase = *phase;
   status.environment = *environment;
   status.mode = *mode;
   status.word = *word;
@@ -166,12 +203,12 @@ std::string encode(const RobotStatus& status) {
   out.set_mode(static_cast<std::uint32_t>(status.mode));
   out.set_word(static_cast<std::uint32_t>(status.word));
   out.set_reason(validUtf8(status.reason));
+  out.set_mission_phase(static_cast<std::uint32_t>(status.phase));
+  out.mutable_writers()->set_base(status.writers.base);
+  out.mutable_writers()->set_arm(status.writers.arm);
+  out.mutable_writers()->set_pumps(status.writers.pumps);
   toProto(status.lease, *out.mutable_lease());
-  v1::StopStatus& stop = *out.mutable_stop();
-  stop.set_latched(status.stop.latched);
-  stop.set_source(validUtf8(status.stop.source));
-  stop.set_since_ns(toNanoseconds(status.stop.since));
-  stop.set_standstill_proven(status.stop.standstill_proven);
+  toProto(status.stop, *out.mutable_stop());
   toProto(status.X_map_base, *out.mutable_x_map_base());
   out.set_pose_age_s(status.pose_age_s);
   toProto(status.twist, *out.mutable_twist());
@@ -203,9 +240,9 @@ Result<RobotStatus> decodeRobotStatus(std::string_view bytes) {
   status.robot_name = in->robot_name();
   status.version = in->version();
   status.reason = in->reason();
+  status.writers = {in->writers().base(), in->writers().arm(), in->writers().pumps()};
   status.lease = fromProto(in->lease());
-  status.stop = {in->stop().latched(), in->stop().source(),
-                 stampFromNanoseconds(in->stop().since_ns()), in->stop().standstill_proven()};
+  status.stop = fromProto(in->stop());
   status.X_map_base = fromProto(in->x_map_base());
   status.pose_age_s = in->pose_age_s();
   status.twist = fromProto(in->twist());

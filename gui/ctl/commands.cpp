@@ -84,6 +84,12 @@ int commandWithControl(Console& console, CommandBody body) {
   return code;
 }
 
+int clearStop(Console& console) {
+  if (!console.connect()) return kNoLink;
+  // The STOP that stands now: one that comes after it stays.
+  return commandWithControl(console, ClearStop{console.status().stop.generation});
+}
+
 int transition(Console& console, const std::string& from, const std::string& to) {
   if (!console.connect()) return kNoLink;
   for (int i = 0; i < 10 && !console.fsm() && !signalled(); ++i)

@@ -16,6 +16,7 @@ namespace kiln::ctl {
 /// Takes control, sends, waits for the answer, gives control back.
 [[nodiscard]] int showLocalization(Console& console);
 [[nodiscard]] int commandWithControl(Console& console, CommandBody body);
+[[nodiscard]] int clearStop(Console& console);
 /// @param from  empty: the state that the robot is in now.
 [[nodiscard]] int transition(Console& console, const std::string& from, const std::string& to);
 /// Keeps control until a signal or `seconds` are over.

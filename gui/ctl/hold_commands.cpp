@@ -20,8 +20,9 @@ int refused(Console& console, const CommandUpdate& update) {
 int stream(Console& console, CommandBody setpoint,
            const std::function<std::optional<int>()>& over) {
   std::optional<int> code;
+  const std::uint64_t press = console.session().press();
   while (!code) {
-    console.session().hold(setpoint);
+    console.session().hold(setpoint, press);
     if (auto* macro = std::get_if<HoldMacro>(&setpoint)) macro->restart = false;
     console.pauseFor(kRefresh_s);
     if (const auto refusal = console.takeRefusal()) {

@@ -61,7 +61,9 @@ void addMission(CLI::App& app, Request& request) {
   addSimple(app, request, "resume", "go on with the mission", kiln::Resume{});
   addSimple(app, request, "reset", "competition reset: the robot is carried back to its start",
             kiln::ResetRobot{});
-  addSimple(app, request, "clear-stop", "clear a latched STOP; moves nothing", kiln::ClearStop{});
+  app.add_subcommand("clear-stop", "clear a latched STOP; moves nothing")->callback([&request] {
+    request.run = kiln::ctl::clearStop;
+  });
   addSimple(app, request, "release-protective-stop",
             "release the arm's protective stop, after looking", kiln::ReleaseProtectiveStop{});
   CLI::App* transition =

@@ -64,7 +64,13 @@ std::uint64_t FakeLink::send(const CommandBody& body) {
   return nonce;
 }
 
-void FakeLink::startSetpoint(const CommandBody& body) {
+std::uint64_t FakeLink::press() { return ++last_press_; }
+
+void FakeLink::releaseSetpoint(const CommandBody& example) {
+  if (held_.erase(example.index()) > 0 && held_.empty()) releaseSetpoints();
+}
+
+void FakeLink::startSetpoint(const CommandBody& body, std::uint64_t) {
   held_.insert_or_assign(body.index(), body);
   if (!silent_) robot_.handle(clientId().toStdString(), operatorName().toStdString(), body);
   // A macro restarts once, not at each repetition.

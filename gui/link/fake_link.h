@@ -30,7 +30,9 @@ class FakeLink : public Link {
   [[nodiscard]] QString clientId() const override { return QStringLiteral("fake-station"); }
   [[nodiscard]] QString operatorName() const override { return QStringLiteral("you"); }
   std::uint64_t send(const CommandBody& body) override;
-  void startSetpoint(const CommandBody& body) override;
+  void startSetpoint(const CommandBody& body, std::uint64_t press) override;
+  [[nodiscard]] std::uint64_t press() override;
+  void releaseSetpoint(const CommandBody& example) override;
   void releaseSetpoints() override;
   void stop() override;
 
@@ -59,6 +61,7 @@ class FakeLink : public Link {
   std::uint64_t tick_ = 0;
   std::uint64_t next_nonce_ = 1;
   std::map<std::size_t, CommandBody> held_;
+  std::uint64_t last_press_ = 0;
   std::vector<CommandBody> sent_;
   bool silent_ = false, deaf_ = false;
   Stamp heard_;

@@ -84,7 +84,11 @@ RobotStatus FakeRobot::status() const {
   s.lease.holder_name = holder_name_;
   s.lease.epoch = holder_.empty() ? 0 : epoch_;
   s.lease.expires_in_s = holder_.empty() ? 0.0 : 2.0;
-  s.stop = {stopped_, stop_source_, stop_since_, stopped_ && toSeconds(now_ - stop_since_) > 0.5};
+  s.stop.latched = stopped_;
+  s.stop.source = stop_source_;
+  s.stop.since = stop_since_;
+  s.stop.standstill_proven = stopped_ && toSeconds(now_ - stop_since_) > 0.5;
+  s.stop.base_at_rest = s.stop.arm_at_rest = s.stop.pumps_at_rest = s.stop.standstill_proven;
   s.X_map_base = pose_;
   s.pose_age_s = 0.06;
   s.twist = jog_;

@@ -40,7 +40,9 @@ class ReplayLink : public Link {
   [[nodiscard]] QString operatorName() const override { return QStringLiteral("replay"); }
   [[nodiscard]] bool readOnly() const override { return true; }
   std::uint64_t send(const CommandBody&) override { return 0; }
-  void startSetpoint(const CommandBody&) override {}
+  void startSetpoint(const CommandBody&, std::uint64_t) override {}
+  [[nodiscard]] std::uint64_t press() override { return 0; }
+  void releaseSetpoint(const CommandBody&) override {}
   void releaseSetpoints() override {}
   void stop() override { setPlaying(false); }  ///< the key that stops a robot pauses a recording
 

@@ -188,8 +188,14 @@ std::uint64_t RobotLink::send(const CommandBody& body) {
   return impl_->session ? impl_->session->send(body) : 0;
 }
 
-void RobotLink::startSetpoint(const CommandBody& body) {
-  if (impl_->session) impl_->session->hold(body);
+void RobotLink::startSetpoint(const CommandBody& body, std::uint64_t press) {
+  if (impl_->session) impl_->session->hold(body, press);
+}
+
+std::uint64_t RobotLink::press() { return impl_->session ? impl_->session->press() : 0; }
+
+void RobotLink::releaseSetpoint(const CommandBody& example) {
+  if (impl_->session) impl_->session->release(example);
 }
 
 void RobotLink::releaseSetpoints() {

@@ -29,7 +29,9 @@ class RobotLink : public Link {
   [[nodiscard]] QString clientId() const override;
   [[nodiscard]] QString operatorName() const override;
   std::uint64_t send(const CommandBody& body) override;
-  void startSetpoint(const CommandBody& body) override;
+  void startSetpoint(const CommandBody& body, std::uint64_t press) override;
+  [[nodiscard]] std::uint64_t press() override;
+  void releaseSetpoint(const CommandBody& example) override;
   void releaseSetpoints() override;
   void stop() override;
 

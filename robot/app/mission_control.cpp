@@ -86,8 +86,9 @@ CommandAck MissionControl::executeDiscrete(const Command& command, Stamp now) {
   if (const auto* change = std::get_if<ChangeState>(&body))
     return changeState(command, *change, now);
   if (const auto* mode = std::get_if<SetMode>(&body)) return setMode(command, mode->mode, now);
-  if (std::holds_alternative<ClearStop>(body)) {
-    parts_.stop.clear();
+  if (const auto* clear = std::get_if<ClearStop>(&body)) {
+    if (!parts_.stop.clear(clear->generation))
+      return answer(command, AckOutcome::Refused, "newer_stop", "another STOP came; look again");
     stop_seen_ = false;
     logger("safety")->warn("STOP cleared by {}; nothing moves until told to",
                            command.operator_name);

@@ -48,7 +48,7 @@ struct Robot::Impl {
   /// What the map makes of a scan, for the preflight; forgotten when the robot is put elsewhere.
   void noteMatch(const Result<ScanMatch>& match, bool believed);
   void forgetMatch();
-  [[nodiscard]] bool atStandstill() const;
+  [[nodiscard]] StopStatus stopStatus(Stamp now) const;
   [[nodiscard]] Pose2 pose() const { return tracked.X_map_base; }
   /// Why nobody knows where the robot is, in words; empty: it is known.
   [[nodiscard]] std::string positionLost() const;
@@ -101,6 +101,7 @@ struct Robot::Impl {
   LogSinkHandle log_sink;
 
   std::vector<Check> checks;
+  std::string late_product;      ///< what perception owes; empty: it keeps up
   std::vector<LimitRow> limits;  ///< configured against possible
   std::optional<MapFit> map_fit;
   std::string match_failure;

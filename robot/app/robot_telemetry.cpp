@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kRest_radps = 0.02;  ///< joints and wheels below this stand still
 constexpr double kPumpRest_a = 0.3;
+constexpr double kProofAge_s = 0.1;  ///< older states prove no standstill
 
 /// Rules of Challenge 3: 6 points for the first litre on the burning place. What is burning is
 /// known by what was sprayed at, and litres are an estimate.
@@ -29,6 +30,9 @@ void Robot::Impl::raiseAlarms(Stamp now) {
   alarms.set("devices.lost", !devices.connected(), AlarmLevel::Warning,
              "No connection to the robot's devices",
              "check power and kiln-sim; the robot stands still by itself", now);
+  alarms.set("perception.late", fsm.running && !late_product.empty(), AlarmLevel::Warning,
+             "Perception does not deliver: " + late_product,
+             "the picture is old: do not steer by it; restart the daemon", now);
   const PumpTracking water = pumps.tracking();
   alarms.set("pumps.no_current", water.no_current, AlarmLevel::Caution, "A pump draws no current",
              "tank empty, hose blocked or cable loose: check, then spray again", now);
@@ -59,16 +63,27 @@ void Robot::Impl::raiseAlarms(Stamp now) {
              "make room on the disk, then switch the recording on again", now);
 }
 
-bool Robot::Impl::atStandstill() const {
-  const auto arm_state = devices.arm.state();
-  const auto base_state = devices.base.state();
-  const auto pump_state = devices.pumps.state();
-  if (!arm_state || !base_state || !pump_state) return false;
-  if (arm_state->qd.cwiseAbs().maxCoeff() > kRest_radps) return false;
-  for (const WheelState& wheel : base_state->wheels) {
-    if (std::abs(wheel.drive_radps) > kRest_radps * 5) return false;
-  }
-  return pump_state->current_a[0] < kPumpRest_a && pump_state->current_a[1] < kPumpRest_a;
+/// At rest by what was measured just now: what is old or no number proves nothing.
+StopStatus Robot::Impl::stopStatus(Stamp now) const {
+  StopStatus s;
+  s.latched = stop.latched();
+  s.source = stop.source();
+  s.since = stop.since();
+  s.generation = stop.generation();
+  const auto young = [&](const auto& state) {
+    return state && toSeconds(now - state->stamp) <= kProofAge_s;
+  };
+  if (const auto arm_state = devices.arm.state(); young(arm_state))
+    s.arm_at_rest = (arm_state->qd.array().abs() <= kRest_radps).all();
+  if (const auto base_state = devices.base.state(); young(base_state))
+    s.base_at_rest = std::all_of(
+        base_state->wheels.begin(), base_state->wheels.end(),
+        [](const WheelState& w) { return std::abs(w.drive_radps) <= kRest_radps * 5; });
+  if (const auto pump_state = devices.pumps.state(); young(pump_state))
+    s.pumps_at_rest = std::all_of(pump_state->current_a.begin(), pump_state->current_a.end(),
+                                  [](double a) { return a < kPumpRest_a; });
+  s.standstill_proven = s.latched && s.arm_at_rest && s.base_at_rest && s.pumps_at_rest;
+  return s;
 }
 
 RobotStatus Robot::Impl::status(Stamp now) const {
@@ -83,7 +98,7 @@ RobotStatus Robot::Impl::status(Stamp now) const {
   s.reason = s.word == StatusWord::NotReady ? firstFailure(checks) : control.reason();
   s.checks = checks;
   s.lease = authority.lease(now);
-  s.stop = {stop.latched(), stop.source(), stop.since(), stop.latched() && atStandstill()};
+  s.stop = stopStatus(now);
   s.X_map_base = pose();
   s.pose_age_s = tracked.age_s;
   s.twist = base.tracking().measured;

@@ -89,13 +89,14 @@ Result<void> ScriptedOperator::holdWhile(
     const std::string& what, Duration limit,
     const std::function<std::optional<CommandBody>(const View&)>& setpoint) {
   const Stamp deadline = clock_.now() + limit;
+  const std::uint64_t press = session_->press();
   while (clock_.now() < deadline) {
     const auto wish = setpoint(view());
     if (!wish) {
       session_->releaseAll();
       return {};
     }
-    session_->hold(*wish);
+    session_->hold(*wish, press);
     std::unique_lock lock(mutex_);
     changed_.wait_for(lock, std::chrono::milliseconds(40));
   }

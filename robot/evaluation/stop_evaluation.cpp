@@ -105,7 +105,7 @@ Result<std::vector<double>> timeStops(ScriptedOperator& person) {
         !mine) {
       return tl::make_unexpected(mine.error());
     }
-    if (auto cleared = person.command(ClearStop{}); !cleared)
+    if (auto cleared = person.command(ClearStop{person.view().status->stop.generation}); !cleared)
       return tl::make_unexpected(cleared.error());
     auto clear = person.waitFor("the cleared STOP", seconds(2),
                                 [](const auto& v) { return !v.status->stop.latched; });
@@ -185,7 +185,7 @@ Result<void> readyForHands(ScriptedOperator& person) {
   }
   if (person.view().status->stop.latched) {
     if (auto lease = person.command(AcquireLease{}); !lease) return lease;
-    if (auto cleared = person.command(ClearStop{}); !cleared) return cleared;
+    if (auto cleared = person.command(ClearStop{person.view().status->stop.generation}); !cleared) return cleared;
   }
   if (auto over = person.takeOver(); !over) return over;
   return person.command(ReleaseLease{});

@@ -18,8 +18,9 @@ TEST(LinkFaults, ToleratesFivePercentLoss) {
   ASSERT_TRUE(takeControl(robot, op));
   // A hold goes on through single losses: the dead-man allows six periods.
   std::size_t gaps = 0;
+  const std::uint64_t press = op.session->press();
   ASSERT_TRUE(tickUntil(robot, [&] {
-    op.session->hold(JogBase{{0.3, 0.0, 0.0}});
+    op.session->hold(JogBase{{0.3, 0.0, 0.0}}, press);
     gaps = robot.released.size();
     return robot.accepted.size() >= 50;
   }));
@@ -51,14 +52,15 @@ TEST(LinkFaults, SlowLinkRefusesJogs) {
   auto config = operatorConfig(folder.endpoint(), "anna");
   config.up_delay_s = 0.6;
   LinkedOperator op(config);
-  op.session->hold(JogBase{});
+  const std::uint64_t press = op.session->press();
+  op.session->hold(JogBase{}, press);
   ASSERT_TRUE(tickUntil(robot, [&] { return op.link().rtt_s > 0.5; }));
   ASSERT_TRUE(tickUntil(robot, [&] {
     if (!op.session->lease().mine) op.session->send(AcquireLease{});
     return op.session->lease().mine;
   }));
   ASSERT_TRUE(tickUntil(robot, [&] {
-    op.session->hold(JogBase{{0.3, 0.0, 0.0}});
+    op.session->hold(JogBase{{0.3, 0.0, 0.0}}, press);
     for (const CommandUpdate& update : op.updates()) {
       if (update.command == "jog_base" && update.state == CommandState::Refused) return true;
     }

@@ -90,7 +90,7 @@ TEST_F(OperatorCommands, StopHaltsLatchesAndClearingMovesNothing) {
                   .has_value());
   ASSERT_TRUE(takeLease()) << "STOP revokes it";
   EXPECT_FALSE(person_->command(Resume{}).has_value()) << "nothing moves while STOP is latched";
-  ASSERT_TRUE(person_->command(ClearStop{}).has_value());
+  ASSERT_TRUE(person_->command(ClearStop{person_->view().status->stop.generation}).has_value());
   ASSERT_TRUE(waitForWord(StatusWord::Paused)) << "the mission waits for a word of its own";
   EXPECT_TRUE(waitForSpeed(false));
 }
@@ -98,7 +98,8 @@ TEST_F(OperatorCommands, StopHaltsLatchesAndClearingMovesNothing) {
 TEST_F(OperatorCommands, TeleopPausesTheMissionAndOnlyThenObeysTheStick) {
   ASSERT_TRUE(person_->command(StartMission{}).has_value());
   ASSERT_TRUE(waitForWord(StatusWord::Auto));
-  person_->session().hold(JogBase{{0.3, 0, 0}});
+  const std::uint64_t press = person_->session().press();
+  person_->session().hold(JogBase{{0.3, 0, 0}}, press);
   const auto refused = person_->waitFor("the refused jog", seconds(3), [](const View& v) {
     return v.last_command && v.last_command->command == "jog_base" &&
            v.last_command->code == "wrong_mode";

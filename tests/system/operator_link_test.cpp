@@ -87,8 +87,9 @@ TEST(OperatorLink, StreamsHeldSetpointsAndSendsZeroOnRelease) {
   LinkedRobot robot(folder.endpoint());
   LinkedOperator op(operatorConfig(folder.endpoint(), "anna"));
   ASSERT_TRUE(takeControl(robot, op));
+  const std::uint64_t press = op.session->press();
   ASSERT_TRUE(tickUntil(robot, [&] {
-    op.session->hold(JogBase{{0.3, 0.0, 0.0}});
+    op.session->hold(JogBase{{0.3, 0.0, 0.0}}, press);
     return robot.accepted.size() >= 10;
   }));
   EXPECT_TRUE(robot.authority.held(HoldKind::BaseJog, robot.clock.now()));
@@ -108,7 +109,8 @@ TEST(OperatorLink, ForgottenKeyIsARelease) {
   LinkedRobot robot(folder.endpoint());
   LinkedOperator op(operatorConfig(folder.endpoint(), "anna"));
   ASSERT_TRUE(takeControl(robot, op));
-  op.session->hold(HoldPump{1.0, 1.0});  // once, and never again: a hung window
+  const std::uint64_t press = op.session->press();
+  op.session->hold(HoldPump{1.0, 1.0}, press);  // once, and never again: a hung window
   ASSERT_TRUE(
       tickUntil(robot, [&] { return robot.authority.held(HoldKind::Pump, robot.clock.now()); }));
   ASSERT_TRUE(
@@ -122,8 +124,9 @@ TEST(OperatorLink, DeadClientIsAReleaseAndLosesTheLease) {
   auto config = operatorConfig(folder.endpoint(), "anna");
   auto op = std::make_unique<LinkedOperator>(config);
   ASSERT_TRUE(takeControl(robot, *op));
+  const std::uint64_t press = op->session->press();
   ASSERT_TRUE(tickUntil(robot, [&] {
-    op->session->hold(JogBase{{0.3, 0.0, 0.0}});
+    op->session->hold(JogBase{{0.3, 0.0, 0.0}}, press);
     return robot.authority.held(HoldKind::BaseJog, robot.clock.now());
   }));
   const auto epoch = robot.authority.epoch().value();

@@ -18,8 +18,9 @@ TEST(StopLane, AnyClientStopsAndRevokesTheLease) {
   viewer.role = ClientRole::Viewer;
   LinkedOperator guest(viewer);
   ASSERT_TRUE(takeControl(robot, anna));
+  const std::uint64_t press = anna.session->press();
   ASSERT_TRUE(tickUntil(robot, [&] {
-    anna.session->hold(JogBase{{0.3, 0.0, 0.0}});
+    anna.session->hold(JogBase{{0.3, 0.0, 0.0}}, press);
     return robot.authority.held(HoldKind::BaseJog, robot.clock.now());
   }));
   guest.session->stop();
@@ -40,11 +41,11 @@ TEST(StopLane, LatchStaysUntilTheHolderClearsIt) {
   anna.session->stop();
   ASSERT_TRUE(
       tickUntil(robot, [&] { return robot.stop.latched() && !anna.session->lease().mine; }));
-  const auto without = anna.session->send(ClearStop{});
+  const auto without = anna.session->send(ClearStop{robot.stop.generation()});
   ASSERT_TRUE(tickUntil(robot, [&] { return anna.fate(without).state == CommandState::Refused; }));
   EXPECT_EQ(anna.fate(without).code, "no_lease");
   ASSERT_TRUE(takeControl(robot, anna));
-  const auto clear = anna.session->send(ClearStop{});
+  const auto clear = anna.session->send(ClearStop{robot.stop.generation()});
   ASSERT_TRUE(tickUntil(robot, [&] { return anna.fate(clear).state == CommandState::Done; }));
   EXPECT_FALSE(robot.stop.latched());
 }

@@ -39,7 +39,8 @@ void LinkedRobot::tick() {
       authority.step(link->takeCommands(), link->operators(), link->takeStops(), situation, now);
   for (const CommandAck& ack : step.acks) link->acknowledge(ack);
   for (Authority::Accepted& a : step.accepted) {
-    if (std::holds_alternative<ClearStop>(a.command.body)) stop.clear();
+    if (const auto* clear = std::get_if<ClearStop>(&a.command.body))
+      (void)stop.clear(clear->generation);
     if (!isSetpoint(a.command.body)) {
       CommandAck ack;
       ack.client_id = a.command.client_id;

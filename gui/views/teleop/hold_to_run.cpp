@@ -1,27 +1,10 @@
 #include "gui/views/teleop/hold_to_run.h"
 
-#include <optional>
-
 namespace kiln::gui {
 namespace {
 
 QString ageOrNone(double age_s) {
   return age_s < 0 ? HoldToRun::tr("none") : HoldToRun::tr("%1 s").arg(age_s, 0, 'f', 1);
-}
-
-/// The setpoint that means "at rest" and leaves other streams alone; a macro has none.
-std::optional<CommandBody> restOf(HoldKind kind) {
-  switch (kind) {
-    case HoldKind::Base:
-      return JogBase{};
-    case HoldKind::Arm:
-      return JogArm{};
-    case HoldKind::Pump:
-      return HoldPump{};
-    case HoldKind::Macro:
-      return std::nullopt;
-  }
-  return std::nullopt;
 }
 
 }  // namespace
@@ -79,26 +62,27 @@ bool HoldToRun::hold(HoldKind kind, const CommandBody& body) {
     return false;
   }
   const bool first = !holding(kind);
-  held_.insert_or_assign(kind, body);
-  models_.link.startSetpoint(body);
+  Hold& held = held_[kind];
+  held.body = body;
+  if (first) held.press = models_.link.press();
+  models_.link.startSetpoint(body, held.press);
   if (!renew_.isActive()) renew_.start(config_.renew_ms);
   // A macro starts from its first step once; the renewals only keep it running.
-  if (auto* macro = std::get_if<HoldMacro>(&held_.at(kind))) macro->restart = false;
+  if (auto* macro = std::get_if<HoldMacro>(&held.body)) macro->restart = false;
   if (first) emit changed();
   return true;
 }
 
 void HoldToRun::release(HoldKind kind) {
-  if (held_.erase(kind) == 0) return;
-  const auto rest = restOf(kind);
+  const auto found = held_.find(kind);
+  if (found == held_.end()) return;
+  const CommandBody body = found->second.body;
+  held_.erase(found);
   if (held_.empty()) {
     renew_.stop();
     models_.link.releaseSetpoints();
-  } else if (rest) {
-    models_.link.startSetpoint(*rest);
   } else {
-    models_.link.releaseSetpoints();
-    for (const auto& [other, body] : held_) models_.link.startSetpoint(body);
+    models_.link.releaseSetpoint(body);
   }
   emit changed();
 }
@@ -113,11 +97,11 @@ void HoldToRun::releaseAll(const QString& why) {
 }
 
 void HoldToRun::renew() {
-  for (const auto& [kind, body] : held_) {
+  for (const auto& [kind, held] : held_) {
     const QString why = lock(kind);
     if (!why.isEmpty()) return releaseAll(why);
   }
-  for (const auto& [kind, body] : held_) models_.link.startSetpoint(body);
+  for (const auto& [kind, held] : held_) models_.link.startSetpoint(held.body, held.press);
 }
 
 }  // namespace kiln::gui

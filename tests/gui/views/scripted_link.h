@@ -22,12 +22,20 @@ class ScriptedLink : public Link {
     sent.push_back(body);
     return sent.size();
   }
-  void startSetpoint(const CommandBody& body) override { setpoints.push_back(body); }
+  void startSetpoint(const CommandBody& body, std::uint64_t press) override {
+    setpoints.push_back(body);
+    presses.push_back(press);
+  }
+  [[nodiscard]] std::uint64_t press() override { return ++last_press; }
+  void releaseSetpoint(const CommandBody& example) override { released.push_back(example); }
   void releaseSetpoints() override { ++releases; }
   void stop() override { ++stops; }
 
   ManualClock time{Stamp{std::chrono::seconds(100)}};
   std::vector<CommandBody> sent, setpoints;
+  std::vector<std::uint64_t> presses;  ///< of each setpoint
+  std::vector<CommandBody> released;
+  std::uint64_t last_press = 0;
   int releases = 0, stops = 0;
 };
 

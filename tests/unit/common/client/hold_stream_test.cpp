@@ -10,9 +10,9 @@ Monotonic::time_point at(double s) {
       std::chrono::duration_cast<Monotonic::duration>(std::chrono::duration<double>(s)));
 }
 template <class T>
-int count(const std::vector<CommandBody>& bodies) {
+int count(const std::vector<HoldStream::Setpoint>& setpoints) {
   int n = 0;
-  for (const CommandBody& body : bodies) n += std::holds_alternative<T>(body) ? 1 : 0;
+  for (const auto& setpoint : setpoints) n += std::holds_alternative<T>(setpoint.body) ? 1 : 0;
   return n;
 }
 
@@ -20,7 +20,7 @@ TEST(HoldStream, StreamsAtItsRateWhileRefreshed) {
   HoldStream stream(25.0, 0.2);
   int sent = 0;
   for (int ms = 0; ms < 1000; ms += 10) {
-    stream.hold(JogBase{{0.1, 0, 0}}, at(ms * 1e-3));
+    stream.hold(JogBase{{0.1, 0, 0}}, 1, at(ms * 1e-3));
     sent += static_cast<int>(stream.due(at(ms * 1e-3)).size());
   }
   EXPECT_EQ(sent, 25);
@@ -28,7 +28,7 @@ TEST(HoldStream, StreamsAtItsRateWhileRefreshed) {
 
 TEST(HoldStream, ReleaseSendsZeroThreeTimesThenSilence) {
   HoldStream stream(25.0, 0.2);
-  stream.hold(JogBase{{0.1, 0, 0}}, at(0));
+  stream.hold(JogBase{{0.1, 0, 0}}, 1, at(0));
   static_cast<void>(stream.due(at(0)));
   stream.release(JogBase{});
   int zeros = 0;
@@ -39,7 +39,7 @@ TEST(HoldStream, ReleaseSendsZeroThreeTimesThenSilence) {
 
 TEST(HoldStream, HungCallerIsARelease) {
   HoldStream stream(25.0, 0.2);
-  stream.hold(HoldPump{1, 1}, at(0));
+  stream.hold(HoldPump{1, 1}, 1, at(0));
   int last_pump = -1, zeros = 0;
   for (int i = 0; i < 20; ++i) {
     const auto out = stream.due(at(i * 0.04));
@@ -52,8 +52,8 @@ TEST(HoldStream, HungCallerIsARelease) {
 
 TEST(HoldStream, ReleasingOneKindLeavesTheOthersHeld) {
   HoldStream stream(25.0, 0.2);
-  stream.hold(JogBase{{0.1, 0, 0}}, at(0));
-  stream.hold(HoldPump{1, 1}, at(0));
+  stream.hold(JogBase{{0.1, 0, 0}}, 1, at(0));
+  stream.hold(HoldPump{1, 1}, 1, at(0));
   stream.release(JogBase{});
   const auto out = stream.due(at(0.04));
   EXPECT_EQ(count<ReleaseAll>(out), 0);
@@ -66,13 +66,31 @@ TEST(HoldStream, ReleasingOneKindLeavesTheOthersHeld) {
   }
 }
 
+TEST(HoldStream, APressThatIsOverSendsNothingAnyMore) {
+  HoldStream stream(25.0, 0.2);
+  const std::uint64_t first = stream.press();
+  stream.hold(JogBase{{0.1, 0, 0}}, first, at(0));
+  for (int i = 0; i < 20; ++i) static_cast<void>(stream.due(at(i * 0.04)));  // the caller hung
+  stream.hold(JogBase{{0.1, 0, 0}}, first, at(1.0));
+  EXPECT_TRUE(stream.due(at(1.0)).empty());
+  const std::uint64_t second = stream.press();
+  EXPECT_GT(second, first);
+  stream.hold(JogBase{{0.1, 0, 0}}, second, at(1.1));
+  const auto out = stream.due(at(1.1));
+  ASSERT_EQ(out.size(), 1u);
+  EXPECT_EQ(out[0].press, second);
+  stream.releaseAll();
+  stream.hold(JogBase{{0.1, 0, 0}}, second, at(1.2));
+  for (const auto& setpoint : stream.due(at(1.2))) EXPECT_EQ(setpoint.press, 0u) << "a release";
+}
+
 TEST(HoldStream, MacroRestartIsMeantOncePerPress) {
   HoldStream stream(25.0, 0.2);
   int restarts = 0;
   for (int i = 0; i < 5; ++i) {
-    stream.hold(HoldMacro{"m", true}, at(i * 0.04));
-    for (const CommandBody& body : stream.due(at(i * 0.04)))
-      restarts += std::get<HoldMacro>(body).restart ? 1 : 0;
+    stream.hold(HoldMacro{"m", true}, 1, at(i * 0.04));
+    for (const auto& setpoint : stream.due(at(i * 0.04)))
+      restarts += std::get<HoldMacro>(setpoint.body).restart ? 1 : 0;
   }
   EXPECT_EQ(restarts, 1);
 }

@@ -24,7 +24,7 @@ std::vector<CommandBody> everyBody() {
           Resume{},
           ChangeState{"A", 7, "B"},
           SetMode{Mode::Teleop},
-          ClearStop{},
+          ClearStop{7},
           ReleaseProtectiveStop{},
           ResetRobot{},
           SetSpeedScale{0.0},
@@ -82,7 +82,10 @@ TEST(Messages, RobotStatusKeepsEveryField) {
   s.checks = {{"lidar", false, "no scan", "check its cable"},
               {"disk", true, "1 GB", "make room", true}};
   s.lease = {"id", "anna", 4, 1.5, "id2", "ben", 8.0};
-  s.stop = {true, "operator ben", at(2.0), true};
+  s.stop = {true, "operator ben", at(2.0), 7, true, false, true, false};
+  s.phase = MissionPhase::Held;
+  s.holds = {{HoldReason::Stop, "STOP by ben"}, {HoldReason::PositionLost, "position lost"}};
+  s.writers = {"mission", "jog", "macro"};
   s.X_map_base = {1.0, 2.0, 0.5};
   s.twist = {0.1, 0.2, 0.3};
   s.arm.q << 1, 2, 3, 4, 5, 6;

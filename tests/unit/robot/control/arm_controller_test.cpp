@@ -156,7 +156,7 @@ TEST_F(ArmControllerTest, StopLatchDeceleratesFastAndVoidsWhatCameBefore) {
   const Vector6d rest = controller.tracking().q_command;
   controller.setpoint({.kind = Kind::JointVelocity, .stamp = clock.now(), .qd = qd});
   tick();
-  stop.clear();
+  ASSERT_TRUE(stop.clear(stop.generation()));
   idle(0.5);
   EXPECT_LT((controller.tracking().q_command - rest).norm(), 1e-9);
 }

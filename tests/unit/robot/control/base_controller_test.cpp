@@ -139,7 +139,7 @@ TEST_F(BaseControllerTest, StopsOnTheLatchAndStaysStoppedAfterItIsCleared) {
   EXPECT_FALSE(controller.tracking().ready);
   controller.setpoint({.stamp = clock.now(), .twist = {1.0, 0, 0}});
   tick();
-  stop.clear();
+  ASSERT_TRUE(stop.clear(stop.generation()));
   idle(0.5);
   EXPECT_EQ(controller.tracking().commanded.vx_mps, 0.0);  // what came while latched is void
   drive({0.2, 0, 0}, 1.0);
@@ -156,7 +156,7 @@ TEST_F(BaseControllerTest, LeavesABaseThatMovesOnAfterStopToItsOwnWatchdog) {
   idle(1.0);
   EXPECT_EQ(base.sent().size(), sent) << "not one setpoint more";
   EXPECT_NE(controller.tracking().blocked.find("withheld"), std::string::npos);
-  stop.clear();
+  ASSERT_TRUE(stop.clear(stop.generation()));
   base.setSag(0.0);
   idle(0.1);
   EXPECT_GT(base.sent().size(), sent);

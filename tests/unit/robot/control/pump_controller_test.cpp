@@ -71,7 +71,7 @@ TEST_F(PumpControllerTest, StopCutsAtTheNextTickAndNothingRestartsByItself) {
   controller.setpoint({.stamp = clock.now(), .duty = {1, 1}});
   tick();
   EXPECT_FALSE(controller.tracking().spraying);
-  stop.clear();
+  ASSERT_TRUE(stop.clear(stop.generation()));
   idle(0.1);
   EXPECT_FALSE(controller.tracking().spraying);
 }

@@ -155,7 +155,7 @@ TEST_F(DriveToTest, StopEndsItAndItDoesNotGoOnByItself) {
   stop.set("operator", clock.now());
   for (int k = 0; k < 250; ++k) tick();
   EXPECT_EQ(status.failure_code, "stopped");
-  stop.clear();
+  ASSERT_TRUE(stop.clear(stop.generation()));
   const Pose2 at = base.truePose();
   for (int k = 0; k < 250; ++k) tick();
   EXPECT_NEAR(base.truePose().x_m, at.x_m, 0.002);
