@@ -1,6 +1,7 @@
 #include "robot/app/mission_control.h"
 
 #include "common/core/log.h"
+#include "robot/safety/gate_rules.h"
 
 namespace kiln {
 namespace {
@@ -42,17 +43,33 @@ const char* codeOf(ChangeStateOutcome outcome) {
 
 }  // namespace
 
-void MissionControl::startMission(Stamp now) {
-  mode_ = Mode::Autonomous;
-  pause_reason_.clear();
-  parts_.mission.start(now);
-  logger("mission")->info("mission started");
+GateSituation MissionControl::situation(Stamp now) const {
+  GateSituation found = parts_.situation(now);
+  found.mode = parts_.host.mode();
+  found.phase = parts_.host.phase();
+  found.stop_latched = parts_.stop.latched();
+  found.stop_generation = parts_.stop.generation();
+  found.stop_source = parts_.stop.source();
+  return found;
 }
 
-void MissionControl::resumeMission(Stamp now) {
-  mode_ = Mode::Autonomous;
-  parts_.mission.machine().resume(now);
-  logger("mission")->warn("mission resumed from its checkpoint");
+void MissionControl::startWhenReady(Stamp now) {
+  const MissionHost::Wait wait = parts_.host.waiting();
+  if (wait == MissionHost::Wait::None) return;
+  GateSituation found = situation(now);
+  // Restored, the mission is as good as held; what resumes it must find the robot ready as well.
+  const GateDecision start = gate::checkSituation(StartMission{}, found);
+  found.phase = MissionPhase::Held;
+  const GateDecision decision = wait == MissionHost::Wait::Start || !start.accepted
+                                    ? start
+                                    : gate::checkSituation(Resume{}, found);
+  if (decision.accepted) {
+    if (wait == MissionHost::Wait::Start) return parts_.host.start(now);
+    parts_.host.resume(now);
+    logger("mission")->warn("mission resumed from its checkpoint");
+  } else if (decision.code != "not_ready" && decision.code != "position_lost") {
+    parts_.host.hold(HoldReason::OperatorPause, decision.reason, now);
+  }
 }
 
 std::optional<CommandAck> MissionControl::execute(const Authority::Accepted& accepted, Stamp now) {
@@ -66,30 +83,24 @@ std::optional<CommandAck> MissionControl::execute(const Authority::Accepted& acc
 CommandAck MissionControl::executeDiscrete(const Command& command, Stamp now) {
   const CommandBody& body = command.body;
   if (std::holds_alternative<StartMission>(body)) {
-    startMission(now);
+    parts_.host.start(now);
     return done(command);
   }
   if (std::holds_alternative<Pause>(body)) {
-    pause_reason_ = "paused by " + command.operator_name;
-    parts_.mission.machine().pause(pause_reason_, now);
+    parts_.host.hold(HoldReason::OperatorPause, "paused by " + command.operator_name, now);
     return done(command);
   }
   if (std::holds_alternative<Resume>(body)) {
-    if (const std::string lost = parts_.position_lost(); !lost.empty())
-      return answer(command, AckOutcome::Refused, "position_lost",
-                    lost + "; set the robot's pose on the map, drive by hand or call a reset");
-    if (mode_ == Mode::Teleop) return setMode(command, before_teleop_, now);
-    pause_reason_.clear();
-    parts_.mission.machine().resume(now);
+    parts_.host.resume(now);
     return done(command);
   }
   if (const auto* change = std::get_if<ChangeState>(&body))
     return changeState(command, *change, now);
   if (const auto* mode = std::get_if<SetMode>(&body)) return setMode(command, mode->mode, now);
   if (const auto* clear = std::get_if<ClearStop>(&body)) {
-    if (!parts_.stop.clear(clear->generation))
-      return answer(command, AckOutcome::Refused, "newer_stop", "another STOP came; look again");
-    stop_seen_ = false;
+    if (!parts_.host.clearStop(clear->generation, now))
+      return answer(command, AckOutcome::Refused, "newer_stop",
+                    "another STOP has come since the one that you saw; look, then clear again");
     logger("safety")->warn("STOP cleared by {}; nothing moves until told to",
                            command.operator_name);
     return done(command);
@@ -99,7 +110,7 @@ CommandAck MissionControl::executeDiscrete(const Command& command, Stamp now) {
     return fromResult(command, parts_.arm_controller.releaseProtectiveStop());
   }
   if (std::holds_alternative<ResetRobot>(body)) {
-    hold(now);
+    endHandWork(now);
     return fromResult(command, parts_.arena.requestReset());
   }
   if (const auto* scale = std::get_if<SetSpeedScale>(&body)) {
@@ -146,8 +157,7 @@ CommandAck MissionControl::executeDiscrete(const Command& command, Stamp now) {
 
 CommandAck MissionControl::changeState(const Command& command, const ChangeState& change,
                                        Stamp now) {
-  const ChangeStateResult result =
-      parts_.mission.machine().changeState(change, command.operator_name, now);
+  const ChangeStateResult result = parts_.host.force(change, command.operator_name, now);
   if (result.outcome != ChangeStateOutcome::Ok) {
     return answer(command, AckOutcome::Refused, codeOf(result.outcome), result.reason);
   }
@@ -156,31 +166,22 @@ CommandAck MissionControl::changeState(const Command& command, const ChangeState
 }
 
 CommandAck MissionControl::setMode(const Command& command, Mode mode, Stamp now) {
+  endHandWork(now);
   if (mode == Mode::Teleop) {
-    if (mode_ != Mode::Teleop) before_teleop_ = mode_;
-    pause_reason_ = command.operator_name + " drives by hand";
-    parts_.mission.machine().pause(pause_reason_, now);
-    hold(now);
-    mode_ = Mode::Teleop;
-    return done(command);
+    parts_.host.enterTeleop(command.operator_name, now);
+  } else {
+    parts_.host.leaveTeleop(command.operator_name, now);
   }
-  if (mode == Mode::Autonomous || mode == Mode::None) {
-    hold(now);
-    mode_ = parts_.mission.machine().status(now).running ? Mode::Autonomous : Mode::None;
-    pause_reason_.clear();
-    parts_.mission.machine().resume(now);
-    return done(command);
-  }
-  return answer(command, AckOutcome::Refused, "wrong_mode",
-                "supervised mode needs confirm edges, which this mission does not have; choose "
-                "autonomous or teleop");
+  return done(command);
 }
 
 void MissionControl::executeSetpoint(const Authority::Accepted& accepted) {
   const CommandBody& body = accepted.command.body;
   const bool macro_runs = parts_.macros.running();
   if (const auto* macro = std::get_if<HoldMacro>(&body)) {
-    if (!macro->name.empty()) parts_.macros.hold(macro->name, macro->restart, accepted.received);
+    if (macro->name.empty()) return;
+    parts_.macros.hold(macro->name, macro->restart, accepted.received);
+    if (!parts_.macros.running()) parts_.authority.endHold(HoldKind::Macro);
     return;
   }
   if (macro_runs) parts_.macros.cancel("cancelled: another control was touched");
@@ -196,59 +197,51 @@ void MissionControl::executeSetpoint(const Authority::Accepted& accepted) {
   }
 }
 
-void MissionControl::hold(Stamp now) {
+/// Macros, jogs and pumps by hand end, and with them the presses that held them.
+void MissionControl::endHandWork(Stamp now) {
   parts_.macros.cancel("cancelled");
   parts_.teleop.releaseAll(now);
+  parts_.authority.invalidate();
 }
 
 void MissionControl::onReleased(const std::vector<HoldKind>& kinds, Stamp now) {
-  if (kinds.empty() || mode_ != Mode::Teleop) return;
-  for (const HoldKind kind : kinds) {
-    if (kind == HoldKind::Macro) parts_.macros.cancel("cancelled: released");
-  }
+  if (parts_.host.mode() != Mode::Teleop) return;
+  for (const HoldKind kind : kinds)
+    if (kind == HoldKind::Macro) parts_.macros.release();
   parts_.teleop.releaseAll(now);
 }
 
 void MissionControl::onLeaseLost(Stamp now) {
-  if (mode_ == Mode::Teleop) hold(now);
+  if (parts_.host.mode() == Mode::Autonomous) return;
+  parts_.macros.cancel("cancelled: control was lost");
+  parts_.teleop.releaseAll(now);
 }
 
-void MissionControl::watchStop(Stamp now) {
-  if (!parts_.stop.latched() || stop_seen_) return;
-  stop_seen_ = true;
-  pause_reason_ = "STOP by " + parts_.stop.source();
-  parts_.mission.machine().pause(pause_reason_, now);
-  hold(now);
-  logger("safety")->error("{}; clear it from a station that holds the lease", pause_reason_);
+void MissionControl::observeStop(Stamp now) {
+  if (!parts_.host.observeStop(now)) return;
+  endHandWork(now);
+  logger("safety")->error("{}; clear it from a station that holds the lease",
+                          parts_.host.reason());
 }
 
-void MissionControl::holdMission(const std::string& reason, Stamp now) {
-  pause_reason_ = reason;
-  parts_.mission.machine().pause(reason, now);
-  logger("mission")->error("{}; the mission waits until an operator resumes it", reason);
+void MissionControl::holdMission(HoldReason reason, const std::string& text, Stamp now) {
+  parts_.host.hold(reason, text, now);
+  logger("mission")->error("{}; the mission waits until an operator resumes it", text);
 }
 
 void MissionControl::onReset(Stamp now) {
-  hold(now);
+  endHandWork(now);
   parts_.mission.onReset(now);
   logger("mission")->warn("reset: robot is back at its start, clock runs on");
 }
 
-void MissionControl::step(Stamp now, bool macro_held) {
-  if (mode_ == Mode::Teleop && !parts_.stop.latched()) parts_.macros.poll(now, macro_held);
-  parts_.mission.tick(
-      now);  // in teleop and after STOP the machine is paused: it keeps books, and moves nothing
+void MissionControl::step(Stamp now) {
+  if (parts_.host.mode() == Mode::Teleop) {
+    parts_.macros.poll(now, parts_.authority.held(HoldKind::Macro, now));
+    if (!parts_.macros.running()) parts_.authority.endHold(HoldKind::Macro);
+  }
+  parts_.host.check();
+  parts_.mission.tick(now);  // held, it keeps books and moves nothing
 }
-
-StatusWord MissionControl::word(Stamp now, bool checks_ok) const {
-  if (parts_.stop.latched()) return StatusWord::Stopped;
-  if (mode_ == Mode::Teleop) return StatusWord::Teleop;
-  const FsmStatus fsm = parts_.mission.machine().status(now);
-  if (fsm.running && fsm.paused) return StatusWord::Paused;
-  if (fsm.running) return mode_ == Mode::Supervised ? StatusWord::Supervised : StatusWord::Auto;
-  return checks_ok ? StatusWord::Ready : StatusWord::NotReady;
-}
-
-std::string MissionControl::reason() const { return pause_reason_; }
 
 }  // namespace kiln

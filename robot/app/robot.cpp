@@ -83,8 +83,10 @@ Robot::Impl::Impl(const RobotSettings& settings_in, const RobotOptions& options_
              std::move(macros_in)),
       teleop(settings.teleop, robot, arena, base, arm, pumps),
       authority(settings.authority),
-      control({mission, teleop, macros, alarms, stop, devices.arm, arm, devices.arena,
-               [this] { return pose(); }, [this] { return positionLost(); },
+      host(mission.machine(), stop, [this](Stamp now) { mission.start(now); }),
+      control({mission, host, authority, teleop, macros, alarms, stop, devices.arm, arm,
+               devices.arena, [this] { return pose(); },
+               [this](Stamp now) { return gateSituation(now); },
                [this](const Pose2& X_map_base) {
                  localizer.reset(X_map_base, clock.now());
                  forgetMatch();
@@ -117,6 +119,13 @@ void Robot::Impl::start(Executor& executor) {
   telemetry.publish(mission.machine().info());
   telemetry.publish(macros.list());
   if (map_layer) telemetry.publish(map_layer);
+  if (options.resume) {
+    beginReport(now);
+    localizer.reset(world.state().X_map_base, now);
+    if (mission.machine().running()) host.waitFor(MissionHost::Wait::Resume, now);
+  } else if (options.start) {
+    host.waitFor(MissionHost::Wait::Start, now);
+  }
 }
 
 void Robot::Impl::controlTick(Stamp now) {
@@ -133,8 +142,9 @@ void Robot::Impl::missionTick(Stamp now) {
   watchPosition(now);
   watchMotion(now);
   obeyOperators(now);
-  startWhenReady(now);
-  control.step(now, authority.held(HoldKind::Macro, now));
+  runChecks(now);
+  control.startWhenReady(now);
+  control.step(now);
   keepBooks(now);
   raiseAlarms(now);
   publish(now);
@@ -201,7 +211,7 @@ void Robot::Impl::watchPosition(Stamp now) {
   if (tracked.health != PoseHealth::Lost) carried.reset();
   if (tracked.health != PoseHealth::Lost || !fsm.running || fsm.paused || fsm.terminal) return;
   if (carried && now - *carried < kFirstFix) return;
-  control.holdMission(positionLost(), now);
+  control.holdMission(HoldReason::PositionLost, positionLost(), now);
 }
 
 void Robot::Impl::placeScan(PerceptionJobs::ScanResult& result) {
@@ -227,55 +237,55 @@ void Robot::Impl::watchMotion(Stamp now) {
   const std::string wrong =
       motion_watch.step({tracking.stamp, tracking.commanded, tracking.measured,
                          tracking.X_odom_base, located ? std::optional(pose()) : std::nullopt});
-  if (!wrong.empty()) stop.set("motion watch: " + wrong, now);
+  if (!wrong.empty()) (void)stop.set("motion watch: " + wrong, now);
+}
+
+GateSituation Robot::Impl::gateSituation(Stamp now) const {
+  GateSituation found;
+  const auto arm_state = devices.arm.state();
+  found.protective_stop = arm_state && arm_state->safety == ArmSafetyMode::ProtectiveStop;
+  const Twist2 moving = base.tracking().measured;
+  found.base_moving = std::hypot(moving.vx_mps, moving.vy_mps) > kStandstill_mps ||
+                      std::abs(moving.wz_radps) > kStandstill_radps;
+  found.ready = allOk(checks);
+  found.not_ready_reason = firstFailure(checks);
+  found.position_lost = positionLost();
+  found.view_age_s = std::min(ageOf(perception.lastScan(), now).value_or(1e9),
+                              ageOf(telemetry.lastPicture(), now).value_or(1e9));
+  return found;
 }
 
 void Robot::Impl::obeyOperators(Stamp now) {
-  control.watchStop(now);
+  control.observeStop(now);
   if (!link) return;
-  GateSituation situation;
-  situation.mode = control.mode();
-  situation.stop_latched = stop.latched();
-  const auto arm_state = devices.arm.state();
-  situation.protective_stop = arm_state && arm_state->safety == ArmSafetyMode::ProtectiveStop;
-  situation.mission_running = fsm.running;
-  situation.mission_paused = fsm.paused;
-  const Twist2 moving = base.tracking().measured;
-  situation.base_moving = std::hypot(moving.vx_mps, moving.vy_mps) > kStandstill_mps ||
-                          std::abs(moving.wz_radps) > kStandstill_radps;
-  situation.ready = allOk(checks);
-  situation.not_ready_reason = firstFailure(checks);
-  situation.view_age_s = std::min(ageOf(perception.lastScan(), now).value_or(1e9),
-                                  ageOf(telemetry.lastPicture(), now).value_or(1e9));
-  Authority::Step step =
-      authority.step(link->takeCommands(), link->operators(), link->takeStops(), situation, now);
-  control.onReleased(step.released, now);
-  if (step.lease_lost) control.onLeaseLost(now);
+  const Authority::Step step =
+      authority.step(link->takeCommands(), link->operators(), control, now);
   for (const CommandAck& ack : step.acks) link->acknowledge(ack);
   for (const std::string& event : step.events) logger("operators")->info("{}", event);
-  for (const Authority::Accepted& accepted : step.accepted) {
-    if (auto ack = control.execute(accepted, now)) link->acknowledge(*ack);
-  }
 }
 
-void Robot::Impl::startWhenReady(Stamp now) {
+void Robot::Impl::runChecks(Stamp now) {
   lookAtDisk(now);
   const PreflightInputs found = preflightInputs(now);
   checks = preflight(found, settings.preflight);
   late_product = lateProduct(found, settings.preflight);
-  if (resume_pending && allOk(checks)) {
-    resume_pending = false;
-    control.resumeMission(now);
-  }
-  if (!options.start || mission_start || !allOk(checks)) return;
-  control.startMission(now);
+}
+
+/// A mission has begun, here or before a restart of the program.
+void Robot::Impl::beginReport(Stamp now) {
+  mission_start = now;
+  report = MissionReport(options.mission, now);
+  ended.store(false);
+  const FsmInfo info = mission.machine().info();
+  if (link) link->setMissionUuid(info.mission_uuid);
+  telemetry.publish(info);
 }
 
 void Robot::Impl::keepBooks(Stamp now) {
   fsm = mission.machine().status(now);
-  if (fsm.running && !mission_start) {
-    mission_start = now;
-    report = MissionReport(options.mission, now);
+  if (host.starts() != starts_seen) {
+    starts_seen = host.starts();
+    beginReport(now);
   }
   report.observe(fsm);
   for (const PlaceCheck& check : mission.placeChecks()) report.addPlaceCheck(check);
@@ -297,13 +307,8 @@ void Robot::Impl::recordEstimate(Stamp image, const Eigen::Isometry3d& X_map_the
                           estimate->baseline_range_m, estimate->views, estimate->place});
 }
 
-Result<void> Robot::Impl::resume(Stamp now) {
-  if (auto resumed = mission.resumeFrom(checkpointPath(), now); !resumed) return resumed;
-  mission_start = now;
-  localizer.reset(world.state().X_map_base, now);
-  mission.machine().pause("resuming: waiting for sensors and position", now);
-  resume_pending = true;
-  return {};
+Result<void> Robot::Impl::restore(Stamp now) {
+  return mission.resumeFrom(checkpointPath(), now);
 }
 
 Result<std::unique_ptr<Robot>> Robot::create(const RobotSettings& settings,
@@ -335,11 +340,12 @@ Result<std::unique_ptr<Robot>> Robot::create(const RobotSettings& settings,
                                      stop, std::move(*robot), std::move(*arena), *spray,
                                      std::move(*macros), std::move(*location));
   impl->base.setGeofence(std::make_shared<const Geofence>(std::move(*fence)));
-  impl->start(executor);
+  // Before anything runs: a checkpoint that is refused leaves nothing behind.
   if (options.resume) {
-    if (auto resumed = impl->resume(clock.now()); !resumed)
-      return tl::make_unexpected(resumed.error());
+    if (auto restored = impl->restore(clock.now()); !restored)
+      return tl::make_unexpected(restored.error());
   }
+  impl->start(executor);
   return std::unique_ptr<Robot>(new Robot(std::move(impl)));
 }
 

@@ -30,7 +30,9 @@ struct Robot::Impl {
   void placeScan(PerceptionJobs::ScanResult& result);
   void watchMotion(Stamp now);
   void obeyOperators(Stamp now);
-  void startWhenReady(Stamp now);
+  void runChecks(Stamp now);
+  [[nodiscard]] GateSituation gateSituation(Stamp now) const;
+  void beginReport(Stamp now);
   void keepBooks(Stamp now);
   void recordEstimate(Stamp image, const Eigen::Isometry3d& X_map_thermal);
   void raiseAlarms(Stamp now);
@@ -60,7 +62,8 @@ struct Robot::Impl {
     const auto state = devices.arm.state();
     return state ? std::optional(robot.X_base_flange(state->q)) : std::nullopt;
   }
-  Result<void> resume(Stamp now);
+  /// Puts back what the checkpoint says; moves and starts nothing.
+  Result<void> restore(Stamp now);
 
   RobotSettings settings;
   RobotOptions options;
@@ -93,6 +96,7 @@ struct Robot::Impl {
   Teleop teleop;
   AlarmBook alarms;
   Authority authority;
+  MissionHost host;
   MissionControl control;
   TelemetryHub telemetry;
   MissionReport report;
@@ -116,7 +120,7 @@ struct Robot::Impl {
   std::vector<float> locate_s;  ///< wall time of each scan matched, for the timing report
   std::uint64_t recorded_ticks = 0;
   bool storage_ok = true;
-  bool resume_pending = false;
+  int starts_seen = 0;
   std::optional<Stamp> carried;  ///< the last reset, until the first scan has been matched
   bool camera_runs = false;
   std::atomic<bool> ended{false}, succeeded{false};

@@ -38,7 +38,7 @@ void Robot::Impl::raiseAlarms(Stamp now) {
              "tank empty, hose blocked or cable loose: check, then spray again", now);
   alarms.set("pose.lost", fsm.running && tracked.health == PoseHealth::Lost, AlarmLevel::Warning,
              "Position lost", "drive by hand or call a reset", now);
-  alarms.set("teleop.too_near", control.mode() == Mode::Teleop && !teleop.blocked().empty(),
+  alarms.set("teleop.too_near", host.mode() == Mode::Teleop && !teleop.blocked().empty(),
              AlarmLevel::Advisory, "Arm jog stopped: " + teleop.blocked(), "jog away from it", now);
   const std::string fence = base.tracking().limited;
   alarms.set("base.fence", !fence.empty(), AlarmLevel::Advisory, "Base limited by the " + fence,
@@ -93,9 +93,11 @@ RobotStatus Robot::Impl::status(Stamp now) const {
   s.robot_name = settings.name;
   s.version = options.version;
   s.environment = options.environment;
-  s.mode = control.mode();
-  s.word = control.word(now, allOk(checks));
-  s.reason = s.word == StatusWord::NotReady ? firstFailure(checks) : control.reason();
+  s.mode = host.mode();
+  s.word = host.word(allOk(checks));
+  s.reason = s.word == StatusWord::NotReady ? firstFailure(checks) : host.reason();
+  s.phase = host.phase();
+  s.holds = host.holds();
   s.checks = checks;
   s.lease = authority.lease(now);
   s.stop = stopStatus(now);

@@ -34,11 +34,13 @@ void Teleop::Config::visit(ConfigArchive& a) {
 
 Teleop::Teleop(Config config, const RobotGeometry& robot, const ArenaMap& arena,
                BaseController& base, ArmController& arm, PumpController& pumps)
-    : config_(config), robot_(robot), base_(base), arm_(arm), pumps_(pumps), collision_(robot) {
-  known_boxes_ = arena.walls;
-  known_boxes_.insert(known_boxes_.end(), arena.furniture.begin(), arena.furniture.end());
-  for (const BoxConfig& box : arena.fireFurniture()) known_boxes_.push_back(box);
-}
+    : config_(config),
+      robot_(robot),
+      base_(base),
+      arm_(arm),
+      pumps_(pumps),
+      collision_(robot),
+      arena_(arena) {}
 
 void Teleop::setSpeedScale(double scale) { speed_scale_ = std::clamp(scale, 0.05, 1.0); }
 
@@ -85,7 +87,10 @@ Vector6d Teleop::jointRates(const JogArm& jog, const Vector6d& q, double scale) 
 }
 
 std::string Teleop::objection(const Vector6d& q, const Vector6d& qd, const Pose2& X_map_base) {
-  collision_.setScene(known_boxes_, X_map_base);
+  std::vector<BoxConfig> boxes = arena_.walls;
+  boxes.insert(boxes.end(), arena_.furniture.begin(), arena_.furniture.end());
+  for (const BoxConfig& box : arena_.fireFurniture()) boxes.push_back(box);
+  collision_.setScene(boxes, X_map_base);
   const Clearance ahead = collision_.clearance(q + qd * config_.look_ahead_s);
   if (ahead.distance_m >= config_.clearance_m || ahead.distance_m > collision_.distance(q))
     return {};

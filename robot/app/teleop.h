@@ -57,7 +57,7 @@ class Teleop {
   ArmController& arm_;
   PumpController& pumps_;
   ArmCollision collision_;
-  std::vector<BoxConfig> known_boxes_;
+  const ArenaMap& arena_;  ///< asked anew for each jog: an operator may have moved a place in it
   std::string blocked_;
   double speed_scale_ = 0.35;
 };

@@ -33,16 +33,22 @@ class Machine {
   /// Watchdog, from any thread: "AimHose::execute has not returned for 1.2 s", or empty.
   [[nodiscard]] virtual std::string blocked() const = 0;
 
-  /// Enters the start state. Nothing happens if the mission runs already.
-  virtual void start(Stamp now) = 0;
+  /// Enters the start state, under a new mission UUID unless `mission_uuid` is empty. Nothing happens
+  /// if the mission runs already.
+  virtual void start(const std::string& mission_uuid, Stamp now) = 0;
   /// Polls the current state once, at 50 Hz; at most one transition a step. Nothing while paused or
   /// ended.
   virtual void step(Stamp now) = 0;
-  /// The state's pause() hook brings the robot to rest; the time in the state stands still.
+  /// Holds the machine, whether it runs or not: what is started, forced or restored while it is held
+  /// waits at the threshold of its state and moves nothing. The state's pause() hook brings the
+  /// robot to rest; the time in the state stands still.
   virtual void pause(std::string why, Stamp now) = 0;
-  /// A state that was entered by hand during the pause is entered now, else the state's resume()
+  /// Lets go: a state at whose threshold the machine waits is entered now, else the state's resume()
   /// hook runs.
   virtual void resume(Stamp now) = 0;
+  [[nodiscard]] virtual bool held() const = 0;
+  [[nodiscard]] virtual bool running() const = 0;  ///< begun, and in no terminal state
+  [[nodiscard]] virtual bool begun() const = 0;    ///< started or restored once
   /// By hand: compare-and-set on the step counter and the name of the state that the operator saw.
   virtual ChangeStateResult changeState(const ChangeState& change, const std::string& operator_name,
                                         Stamp now) = 0;
@@ -51,8 +57,9 @@ class Machine {
   virtual void restart(std::string why, Stamp now) = 0;
 
   [[nodiscard]] virtual FsmCheckpoint checkpoint() const = 0;
-  /// Goes on where a checkpoint stood, under its mission UUID. Error: another mission's checkpoint,
-  /// unknown state.
+  /// Stands where a checkpoint stood, under its mission UUID and held: resume() enters the state.
+  /// Where the state may not be entered as things are (State::denyEntry), the start state takes its
+  /// place. Error: another mission's checkpoint, unknown state.
   [[nodiscard]] virtual Result<void> restore(const FsmCheckpoint& checkpoint, Stamp now) = 0;
   /// Called after each transition, i.e. after each action.
   virtual void onTransition(std::function<void(const FsmCheckpoint&)> hook) = 0;

@@ -1,5 +1,7 @@
 #include "robot/fsm/machine_core.h"
 
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "common/core/check.h"
@@ -44,26 +46,27 @@ FsmStatus MachineCore::status(Stamp now) const {
   status.state = current_->name();
   status.entered = entered_;
   status.running = running_;
-  status.paused = paused_;
+  status.paused = paused();
   status.terminal = entry().info.terminal;
   status.success = status.terminal && entry().info.success;
-  status.display_text = paused_ ? fmt::format("Paused: {}", pause_reason_) : display_;
+  status.display_text = paused() ? fmt::format("Paused: {}", pause_reason_) : display_;
   status.guards = guards_;
   for (GuardStatus& guard : status.guards)
     if (guard.input_age_s >= 0.0) guard.input_age_s += toSeconds(now - guards_stamp_);
   return status;
 }
 
-void MachineCore::start(Stamp now) {
+void MachineCore::start(const std::string& mission_uuid, Stamp now) {
   if (running_) return;
   now_ = now;
-  paused_ = false;
+  if (!mission_uuid.empty()) info_.mission_uuid = mission_uuid;
+  history_.clear();
   go(entries_.front().make(), TransitionCause::Start, {});
 }
 
 void MachineCore::step(Stamp now) {
   now_ = now;
-  if (!running_ || paused_) return;
+  if (!running_ || held_) return;
   guards_.clear();
   guards_stamp_ = now;
   Transition transition = poll();
@@ -108,9 +111,9 @@ void MachineCore::go(std::unique_ptr<AnyState> next, TransitionCause cause, std:
   guards_stamp_ = now_;
   display_.clear();
   running_ = !entry().info.terminal;
-  paused_ = paused_ && running_;
   recordEntry(cause, std::move(note));
-  enter_pending_ = paused_ && running_;
+  arrive_pending_ = cause != TransitionCause::Resume;
+  enter_pending_ = paused();
   if (!enter_pending_) enterCurrent();
   if (transition_hook_) transition_hook_(checkpoint());
 }
@@ -118,6 +121,7 @@ void MachineCore::go(std::unique_ptr<AnyState> next, TransitionCause cause, std:
 void MachineCore::enterCurrent() {
   enter_pending_ = false;
   const Watchdog::Call call(watchdog_, current_->name(), "enter");
+  if (std::exchange(arrive_pending_, false)) current_->arrive();
   current_->enter();
 }
 
@@ -127,20 +131,17 @@ void MachineCore::recordEntry(TransitionCause cause, std::string note) {
 }
 
 void MachineCore::pause(std::string why, Stamp now) {
-  if (!running_) return;
   now_ = now;
   pause_reason_ = std::move(why);
-  if (paused_) return;
-  paused_ = true;
+  if (std::exchange(held_, true) || !running_) return;
   paused_since_ = now;
   const Watchdog::Call call(watchdog_, current_->name(), "pause");
   current_->pause();
 }
 
 void MachineCore::resume(Stamp now) {
-  if (!running_ || !paused_) return;
   now_ = now;
-  paused_ = false;
+  if (!std::exchange(held_, false) || !running_) return;
   paused_in_state_ += now - paused_since_;
   if (enter_pending_) return enterCurrent();
   const Watchdog::Call call(watchdog_, current_->name(), "resume");
@@ -196,11 +197,18 @@ Result<void> MachineCore::restore(const FsmCheckpoint& checkpoint, Stamp now) {
                      checkpoint.state, info_.mission);
   const StateEntry* target = find(stood->resume_state);
   KILN_CHECK(target != nullptr && target->make, stood->resume_state);
+  std::string note = fmt::format("resumed; stood in {}", checkpoint.state);
+  if (target->deny) {
+    if (const std::string denied = target->deny(); !denied.empty()) {
+      note += fmt::format(", where it cannot go on: {}", denied);
+      target = &entries_.front();
+    }
+  }
   now_ = now;
   info_.mission_uuid = checkpoint.mission_uuid;
   step_ = checkpoint.step;
-  go(target->make(), TransitionCause::Resume,
-     fmt::format("resumed; stood in {}", checkpoint.state));
+  pause("restored from a checkpoint", now);
+  go(target->make(), TransitionCause::Resume, std::move(note));
   return {};
 }
 
@@ -209,7 +217,7 @@ void MachineCore::onTransition(std::function<void(const FsmCheckpoint&)> hook) {
 }
 
 Duration MachineCore::timeInState() const {
-  const Stamp until = paused_ ? paused_since_ : now_;
+  const Stamp until = paused() ? paused_since_ : now_;
   return until - entered_ - paused_in_state_;
 }
 

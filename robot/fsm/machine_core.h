@@ -34,10 +34,13 @@ class MachineCore : public Machine, private StateHost {
   [[nodiscard]] FsmInfo info() const override { return info_; }
   [[nodiscard]] FsmStatus status(Stamp now) const override;
   [[nodiscard]] std::string blocked() const override { return watchdog_.blocked(); }
-  void start(Stamp now) override;
+  void start(const std::string& mission_uuid, Stamp now) override;
   void step(Stamp now) override;
   void pause(std::string why, Stamp now) override;
   void resume(Stamp now) override;
+  [[nodiscard]] bool held() const override { return held_; }
+  [[nodiscard]] bool running() const override { return running_; }
+  [[nodiscard]] bool begun() const override { return current_ != nullptr; }
   ChangeStateResult changeState(const ChangeState& change, const std::string& operator_name,
                                 Stamp now) override;
   void restart(std::string why, Stamp now) override;
@@ -62,6 +65,7 @@ class MachineCore : public Machine, private StateHost {
   [[nodiscard]] bool timedOut() const;
   void go(std::unique_ptr<AnyState> next, TransitionCause cause, std::string note);
   void enterCurrent();
+  [[nodiscard]] bool paused() const { return held_ && running_; }
   void recordEntry(TransitionCause cause, std::string note);
 
   FsmInfo info_;
@@ -71,9 +75,10 @@ class MachineCore : public Machine, private StateHost {
   std::function<void(const FsmCheckpoint&)> transition_hook_;
 
   std::unique_ptr<AnyState> current_;
-  bool enter_pending_ = false;  ///< entered by hand while paused: enter() waits for resume()
+  bool enter_pending_ = false;   ///< gone to while held: enter() waits for resume()
+  bool arrive_pending_ = false;  ///< and so does arrive(), unless this visit was counted before
   bool running_ = false;
-  bool paused_ = false;
+  bool held_ = false;
   std::string pause_reason_;
   std::uint64_t step_ = 0;
   Stamp now_;

@@ -31,32 +31,47 @@ void Authority::Config::visit(ConfigArchive& a) {
 Authority::Authority(Config config)
     : config_(config), lease_(config.lease), gate_(config.gate), dead_man_(config.dead_man) {}
 
-Authority::Step Authority::step(std::vector<ReceivedCommand> received,
-                                const std::vector<OperatorPeer>& peers,
-                                const std::vector<StopEvent>& stops, GateSituation situation,
+Authority::Step Authority::step(const std::vector<ReceivedCommand>& received,
+                                const std::vector<OperatorPeer>& peers, Handler& handler,
                                 Stamp now) {
   Step step;
-  for (const StopEvent& stop : stops) {
-    lease_.revoke(fmt::format("STOP by {}", stop.operator_name));
+  dead_man_.expire(now);
+  const GateSituation found = handler.situation(now);
+  if (found.stop_generation != stop_seen_) {
+    stop_seen_ = found.stop_generation;
+    const std::string why = fmt::format("STOP by {}", found.stop_source);
+    lease_.revoke(why);
     invalidate();
-    situation.stop_latched = true;
-    step.events.push_back(fmt::format("STOP by {}", stop.operator_name));
+    step.events.push_back(why);
   }
   for (const OperatorPeer& peer : peers) lease_.heard(peer.client_id, peer.last_heard);
-  applyEvents(now, step);
-  for (const ReceivedCommand& command : received) handle(command, situation, now, step);
-  applyEvents(now, step);
-  step.released = dead_man_.takeReleased(now);
+  applyEvents(handler, now, step);
+  for (const ReceivedCommand& command : received) handle(command, handler, now, step);
+  applyEvents(handler, now, step);
+  if (const auto released = dead_man_.takeReleased(now); !released.empty())
+    handler.onReleased(released, now);
   return step;
 }
 
-void Authority::handle(const ReceivedCommand& received, const GateSituation& situation, Stamp now,
-                       Step& step) {
+GateDecision Authority::judge(const ReceivedCommand& received, const LeaseStatus& lease,
+                              GateSituation situation, Stamp now) {
   const Command& command = received.command;
-  GateSituation live = situation;
-  live.anything_held = live.anything_held || dead_man_.anyHeld(now);
+  situation.anything_held = situation.anything_held || dead_man_.anyHeld(now);
+  GateDecision decision = gate_.decide(received, lease, situation, now);
+  if (!decision.accepted) {
+    const bool only_this_message = decision.code == "replayed" || decision.code == "out_of_order" ||
+                                   decision.code == "too_old" || decision.code == "in_future";
+    dead_man_.refused(command, only_this_message);
+  } else if (isSetpoint(command.body) && !dead_man_.mayFeed(command)) {
+    return gate::refuse("press_over", "this press has ended; let go and press again");
+  }
+  return decision;
+}
+
+void Authority::handle(const ReceivedCommand& received, Handler& handler, Stamp now, Step& step) {
+  const Command& command = received.command;
   const LeaseStatus lease = lease_.status(now);
-  const GateDecision decision = gate_.decide(received, lease, live, now);
+  const GateDecision decision = judge(received, lease, handler.situation(now), now);
   if (!decision.accepted) {
     if (isSetpoint(command.body) && !answerRefusal(command, decision.code, now)) return;
     CommandAck ack = ackFor(command, AckOutcome::Refused);
@@ -68,14 +83,16 @@ void Authority::handle(const ReceivedCommand& received, const GateSituation& sit
   }
   if (std::holds_alternative<AcquireLease>(command.body) ||
       std::holds_alternative<ReleaseLease>(command.body)) {
-    answerLease(received, now, step);
+    answerLease(received, handler, now, step);
     return;
   }
-  dead_man_.feed(command.body, received.received);
-  step.accepted.push_back({command, received.received, decision.speed_scale});
+  if (isSetpoint(command.body)) dead_man_.feed(command, received.received);
+  if (auto ack = handler.execute({command, received.received, decision.speed_scale}, now))
+    step.acks.push_back(std::move(*ack));
 }
 
-void Authority::answerLease(const ReceivedCommand& received, Stamp now, Step& step) {
+void Authority::answerLease(const ReceivedCommand& received, Handler& handler, Stamp now,
+                            Step& step) {
   const Command& command = received.command;
   const bool acquire = std::holds_alternative<AcquireLease>(command.body);
   const std::uint64_t epoch_before = lease_.status(now).epoch;
@@ -98,15 +115,15 @@ void Authority::answerLease(const ReceivedCommand& received, Stamp now, Step& st
   invalidate();
   step.events.push_back(
       fmt::format("{} {}", command.operator_name, acquire ? "took control" : "gave control back"));
-  step.lease_lost = step.lease_lost || released;
+  if (released) handler.onLeaseLost(now);
 }
 
-void Authority::applyEvents(Stamp now, Step& step) {
+void Authority::applyEvents(Handler& handler, Stamp now, Step& step) {
   for (const Lease::Event& event : lease_.tick(now)) {
     switch (event.kind) {
       case Lease::Event::Kind::Lost:
         invalidate();
-        step.lease_lost = true;
+        handler.onLeaseLost(now);
         step.events.push_back(fmt::format("{} lost control: {}", event.who.name, event.reason));
         break;
       case Lease::Event::Kind::Granted:

@@ -13,9 +13,11 @@ namespace kiln {
 struct GateSituation {
   Mode mode = Mode::None;
   bool stop_latched = false;
+  std::uint64_t stop_generation = 0;  ///< StopLatch::generation
+  std::string stop_source;
   bool protective_stop = false;
-  bool mission_running = false;
-  bool mission_paused = false;
+  MissionPhase phase = MissionPhase::Idle;
+  std::string position_lost;  ///< why nobody knows where the robot is; empty: it is known
   bool ready = true;             ///< preflight holds
   std::string not_ready_reason;  ///< the first failing check, in words
   bool base_moving = false;      ///< measured
@@ -38,7 +40,8 @@ struct GateDecision {
 ///
 /// Codes: viewer no_lease old_lease replayed out_of_order too_old in_future not_finite out_of_range
 /// mission_running moving stopped wrong_mode not_ready already_running not_running not_paused
-/// not_stopped still_held no_protective_stop protective_stop stale_view link_slow. Confined to the
+/// position_lost not_stopped newer_stop still_held no_protective_stop protective_stop stale_view
+/// link_slow; press_over comes from the authority. Confined to the
 /// mission thread; its only memory is the nonces.
 class CommandGate {
  public:

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -19,9 +21,11 @@ inline constexpr std::size_t kHoldKinds = 4;
 /// A setpoint that asks for nothing: the zero of a release edge, an empty macro name, ReleaseAll.
 [[nodiscard]] bool isRelease(const CommandBody& body);
 
-/// Follows the hold-to-run setpoints of each kind: 250 ms after the last one, an explicit zero or
-/// releaseAll() the kind counts as released, whatever happens to the sender. Confined to the
-/// mission thread.
+/// Follows the hold-to-run setpoints of each kind: 250 ms after the last one, an explicit release or
+/// releaseAll() the kind counts as released, whatever happens to the sender. A hold belongs to one
+/// press of a control (Command::press): once it has ended the same press, and every earlier one of
+/// that client, moves nothing any more, so that only a new deliberate act does (IEC 62745). Confined
+/// to the mission thread.
 class DeadMan {
  public:
   struct Config {
@@ -30,8 +34,19 @@ class DeadMan {
   };
   explicit DeadMan(Config config) : config_(config) {}
 
-  /// An accepted setpoint, received at `when`.
-  void feed(const CommandBody& setpoint, Stamp when);
+  /// Ends what was heard of too long ago. To be called before a batch of commands is looked at: what
+  /// the robot did not see in time is over, even if it waited in a queue.
+  void expire(Stamp now);
+  /// Does the press of this setpoint still count? A release always does.
+  [[nodiscard]] bool mayFeed(const Command& command) const;
+  /// An accepted setpoint, received at `when`. @pre mayFeed
+  void feed(const Command& command, Stamp when);
+  /// A setpoint that was refused: its press is over, unless it holds already and only this message
+  /// was late, repeated or overtaken.
+  void refused(const Command& command, bool only_this_message);
+  /// The work behind this hold has ended or could not begin: let go and press again.
+  void end(HoldKind kind);
+  /// Ends every hold, and every press that was heard of.
   void releaseAll();
   [[nodiscard]] bool held(HoldKind kind, Stamp now) const;
   [[nodiscard]] bool anyHeld(Stamp now) const;
@@ -41,9 +56,19 @@ class DeadMan {
  private:
   struct Hold {
     std::optional<Stamp> last;  ///< nullopt: released
-    bool reported = true;       ///< its release edge has been taken
+    std::string client;
+    std::uint64_t press = 0;
+    bool reported = true;  ///< its release edge has been taken
   };
+  struct Client {
+    std::uint64_t newest = 0;                    ///< press heard of
+    std::array<std::uint64_t, kHoldKinds> over{};  ///< newest press of each kind that has ended
+    std::uint64_t touched = 0;
+  };
+  Client& client(const std::string& id);
   Config config_;
+  std::map<std::string, Client> clients_;  ///< bounded: the one that was silent longest goes
+  std::uint64_t touches_ = 0;
   std::array<Hold, kHoldKinds> holds_;
 };
 

@@ -17,42 +17,44 @@ struct SituationRule {
   GateDecision operator()(const ReleaseLease&) const { return {}; }
   GateDecision operator()(const StartMission&) const {
     if (now.stop_latched) return refuseStopped();
-    if (now.mode == Mode::Teleop) {
-      return refuse("wrong_mode",
-                    "a mission does not start in Teleop; choose Autonomous or Supervised first");
-    }
-    if (now.mission_running) return refuse("already_running", "the mission is running already");
+    if (now.mode == Mode::Teleop)
+      return refuse("wrong_mode", "a mission does not start in Teleop; leave it first");
+    if (live()) return refuse("already_running", "the mission is running already");
     if (!now.ready)
       return refuse("not_ready", fmt::format("the robot is not ready: {}", now.not_ready_reason));
     return {};
   }
   GateDecision operator()(const Pause&) const {
     if (now.stop_latched) return refuseStopped();
-    if (!now.mission_running)
+    if (!live() && now.phase != MissionPhase::Waiting)
       return refuse("not_running", "no mission is running; there is nothing to pause");
     return {};
   }
   GateDecision operator()(const Resume&) const {
     if (now.stop_latched) return refuseStopped();
-    if (now.mode == Mode::Teleop) {
-      return refuse("wrong_mode",
-                    "the mission rests in Teleop; choose Autonomous or Supervised, then resume");
-    }
-    if (!now.mission_paused) return refuse("not_paused", "the mission is not paused");
+    if (now.mode == Mode::Teleop)
+      return refuse("wrong_mode", "the mission rests in Teleop; leave it, then resume");
+    if (now.phase != MissionPhase::Held) return refuse("not_paused", "the mission is not paused");
+    if (!now.position_lost.empty())
+      return refuse("position_lost",
+                    now.position_lost +
+                        "; set the robot's pose on the map, drive by hand or call a reset");
     return {};
   }
   GateDecision operator()(const ChangeState&) const {
     return now.stop_latched ? refuseStopped() : GateDecision{};
   }
   GateDecision operator()(const SetMode& b) const {
-    if (b.mode != Mode::Autonomous && b.mode != Mode::Supervised && b.mode != Mode::Teleop) {
+    if (b.mode != Mode::Autonomous && b.mode != Mode::Teleop)
       return refuse("out_of_range",
-                    "only Autonomous, Supervised and Teleop can be chosen; STOP has its own lane");
-    }
+                    "only Autonomous and Teleop can be chosen; STOP has its own lane");
     return now.stop_latched ? refuseStopped() : GateDecision{};
   }
-  GateDecision operator()(const ClearStop&) const {
+  GateDecision operator()(const ClearStop& b) const {
     if (!now.stop_latched) return refuse("not_stopped", "no STOP is latched");
+    if (b.generation != now.stop_generation)
+      return refuse("newer_stop",
+                    "another STOP has come since the one that you saw; look, then clear again");
     if (now.anything_held)
       return refuse("still_held", "a jog, pump or macro is still held; let go, then clear");
     return {};
@@ -70,7 +72,7 @@ struct SituationRule {
   GateDecision operator()(const AcknowledgeAlarm&) const { return {}; }
   GateDecision operator()(const SetRecording&) const { return {}; }
   GateDecision operator()(const SetPose&) const {
-    if (now.mission_running && !now.mission_paused) {
+    if (now.phase == MissionPhase::Running) {
       return refuse("mission_running",
                     "the pose is not set under a running mission; pause it first");
     }
@@ -81,7 +83,7 @@ struct SituationRule {
   GateDecision operator()(const NudgePlace&) const { return {}; }
   GateDecision operator()(const ContinueDespite&) const {
     if (now.stop_latched) return refuseStopped();
-    if (!now.mission_running)
+    if (!live())
       return refuse("not_running", "no mission is running; there is nothing to go on with");
     return {};
   }
@@ -94,14 +96,16 @@ struct SituationRule {
   GateDecision operator()(const HoldPump&) const { return byHand("pumps by hand"); }
   GateDecision operator()(const HoldMacro&) const {
     if (now.stop_latched) return refuseStopped();
-    if (now.mode != Mode::Teleop && now.mode != Mode::Supervised)
-      return wrongMode("macros", "Supervised or Teleop");
+    if (now.mode != Mode::Teleop) return wrongMode("macros", "Teleop");
     if (now.protective_stop) return refuseProtective();
     return {};
   }
   GateDecision operator()(const ReleaseAll&) const { return {}; }
 
  private:
+  [[nodiscard]] bool live() const {
+    return now.phase == MissionPhase::Running || now.phase == MissionPhase::Held;
+  }
   GateDecision byHand(const char* what) const {
     if (now.stop_latched) return refuseStopped();
     if (now.mode != Mode::Teleop) return wrongMode(what, "Teleop");

@@ -75,13 +75,12 @@ std::string MacroRunner::startObjection(const Macro& macro) const {
 void MacroRunner::hold(const std::string& name, bool restart, Stamp now) {
   now_ = std::max(now_, now);
   if (run_ && run_->macro->name != name) return finish("cancelled: another macro is held", false);
-  if (run_ || must_let_go_) return;
+  if (run_) return;
   const Macro* macro = find(name);
   const std::string objection =
       macro == nullptr ? fmt::format("there is no macro '{}'", name) : startObjection(*macro);
   if (!objection.empty()) {
     last_result_ = "failed: " + objection;
-    must_let_go_ = true;
     return;
   }
   const bool go_on = interrupted_ && interrupted_->macro == macro && !restart;
@@ -97,10 +96,7 @@ void MacroRunner::start(const Macro& macro, std::size_t step) {
 
 void MacroRunner::poll(Stamp now, bool held) {
   now_ = now;
-  if (!held) {
-    must_let_go_ = false;
-    return finish("cancelled: released", true);
-  }
+  if (!held) return release();
   if (!run_) return;
   if (parts_.safety_epoch() != run_->epoch) {
     return finish("cancelled: control changed or STOP", false);
@@ -120,16 +116,11 @@ void MacroRunner::poll(Stamp now, bool held) {
   if (++run_->step == run_->macro->steps.size()) finish("done", false);
 }
 
-void MacroRunner::cancel(const std::string& reason) {
-  finish(reason, reason.ends_with("released"));
-}
-
 void MacroRunner::finish(const std::string& result, bool keep_place) {
   if (!run_) return;
   if (run_->step_run) run_->step_run->abort(now_);
   run_->step_run.reset();
   last_result_ = result;
-  must_let_go_ = !keep_place;
   logger("macro")->info("{}: {}", run_->macro->name, result);
   interrupted_.reset();
   if (keep_place) interrupted_ = std::move(run_);

@@ -32,7 +32,8 @@ struct MacroRunnerConfig {
 /// Runs macros while the operator holds them. Letting go is a stop: the arm decelerates and holds,
 /// the pumps are off; so is cancel(), a failed step and a change of the safety epoch between steps.
 /// Holding the same macro again goes on with the step that was interrupted, unless a restart is
-/// asked for. A macro that has ended starts anew only after its key was let go.
+/// asked for. A macro that has ended, or whose start was refused, is over for this press: its caller
+/// ends the hold when running() turns false (Authority::endHold).
 /// Confined to the mission thread.
 class MacroRunner {
  public:
@@ -57,8 +58,10 @@ class MacroRunner {
   void hold(const std::string& name, bool restart, Stamp now);
   /// At 50 Hz. @param held  the dead-man's word on HoldKind::Macro.
   void poll(Stamp now, bool held);
-  /// No effect when nothing runs. @param reason  becomes the last result: "cancelled: released".
-  void cancel(const std::string& reason);
+  /// No effect when nothing runs. @param reason  becomes the last result: "cancelled by Ann".
+  void cancel(const std::string& reason) { finish(reason, false); }
+  /// The hold has ended: holding the same macro again goes on where it was.
+  void release() { finish("cancelled: released", true); }
 
   [[nodiscard]] bool running() const { return run_.has_value(); }
   [[nodiscard]] MacroStatus status() const;
@@ -81,7 +84,6 @@ class MacroRunner {
   std::optional<Run> run_;
   std::optional<Run> interrupted_;  ///< where the same macro goes on
   SkillStatus progress_;            ///< of the running step
-  bool must_let_go_ = false;
   Stamp now_;
   std::string last_result_;
 };

@@ -28,36 +28,41 @@ LinkedRobot::LinkedRobot(const std::string& endpoint, std::string version, std::
       config, {std::move(version), Environment::Sim, std::move(mission)}, clock, stop);
   KILN_CHECK(opened.has_value(), opened ? "" : opened.error().message);
   link = std::move(*opened);
-  situation.mode = Mode::Teleop;
-  situation.view_age_s = 0.1;
+  base_situation.mode = Mode::Teleop;
+  base_situation.view_age_s = 0.1;
 }
 
 void LinkedRobot::tick() {
   const Stamp now = clock.now();
-  situation.stop_latched = stop.latched();
-  Authority::Step step =
-      authority.step(link->takeCommands(), link->operators(), link->takeStops(), situation, now);
+  Authority::Step step = authority.step(link->takeCommands(), link->operators(), *this, now);
   for (const CommandAck& ack : step.acks) link->acknowledge(ack);
-  for (Authority::Accepted& a : step.accepted) {
-    if (const auto* clear = std::get_if<ClearStop>(&a.command.body))
-      (void)stop.clear(clear->generation);
-    if (!isSetpoint(a.command.body)) {
-      CommandAck ack;
-      ack.client_id = a.command.client_id;
-      ack.nonce = a.command.nonce;
-      ack.command = commandName(a.command.body);
-      ack.outcome = AckOutcome::Done;
-      link->acknowledge(ack);
-    }
-    accepted.push_back(std::move(a));
-  }
-  released.insert(released.end(), step.released.begin(), step.released.end());
   events.insert(events.end(), step.events.begin(), step.events.end());
   RobotStatus status;
   status.stamp = now;
   status.lease = authority.lease(now);
   status.stop.latched = stop.latched();
   link->publish(status);
+}
+
+GateSituation LinkedRobot::situation(Stamp) const {
+  GateSituation found = base_situation;
+  found.stop_latched = stop.latched();
+  found.stop_generation = stop.generation();
+  found.stop_source = stop.source();
+  return found;
+}
+
+std::optional<CommandAck> LinkedRobot::execute(const Authority::Accepted& a, Stamp) {
+  accepted.push_back(a);
+  if (const auto* clear = std::get_if<ClearStop>(&a.command.body))
+    (void)stop.clear(clear->generation);
+  if (isSetpoint(a.command.body)) return std::nullopt;
+  CommandAck ack;
+  ack.client_id = a.command.client_id;
+  ack.nonce = a.command.nonce;
+  ack.command = commandName(a.command.body);
+  ack.outcome = AckOutcome::Done;
+  return ack;
 }
 
 LinkedOperator::LinkedOperator(OperatorSession::Config config) {

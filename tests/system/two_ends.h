@@ -31,18 +31,25 @@ class TempFolder {
 
 /// The robot's half without devices: the link, the authority and a mission tick that does as the
 /// daemon does.
-class LinkedRobot {
+class LinkedRobot : public Authority::Handler {
  public:
   LinkedRobot(const std::string& endpoint, std::string version = "0.1.0",
               std::string mission = "mission-a");
   /// One mission tick: drains, decides, answers, publishes a status.
   void tick();
+  [[nodiscard]] GateSituation situation(Stamp now) const override;
+  [[nodiscard]] std::optional<CommandAck> execute(const Authority::Accepted& command,
+                                                  Stamp now) override;
+  void onReleased(const std::vector<HoldKind>& kinds, Stamp) override {
+    released.insert(released.end(), kinds.begin(), kinds.end());
+  }
+  void onLeaseLost(Stamp) override {}
 
   SteadyClock clock;
   StopLatch stop;
   std::unique_ptr<OperatorLink> link;
   Authority authority{Authority::Config{}};
-  GateSituation situation;
+  GateSituation base_situation;  ///< but for STOP
   std::vector<Authority::Accepted> accepted;  ///< everything that passed
   std::vector<HoldKind> released;             ///< every dead-man edge
   std::vector<std::string> events;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "common/core/log.h"
+#include "robot/fsm/uuid.h"
 #include "robot/missions/common/mission_checkpoint.h"
 #include "robot/missions/fire/fire_machine.h"
 #include "robot/missions/mapping/mapping_machine.h"
@@ -18,7 +19,8 @@ namespace {
 /// States in which the arm is, or will be at the next step, near the place.
 bool worksAtPlace(const std::string& state) {
   for (const char* working :
-       {"ArmSearch", "AimHose", "StartPump", "SpraySteady", "SprayPattern", "StopPump"})
+       {"ArmSearch", "HeatFound", "AimHose", "LostTarget", "StartPump", "SpraySteady",
+        "SprayPattern", "StopPump", "PumpFault", "ArmBlocked"})
     if (state == working) return true;
   return false;
 }
@@ -110,8 +112,21 @@ Machine& FireMission::machine() { return *impl_->machine; }
 const Machine& FireMission::machine() const { return *impl_->machine; }
 
 void FireMission::start(Stamp now) {
-  impl_->context.devices.world.startClock(now);
-  impl_->machine->start(now);
+  Impl& m = *impl_;
+  if (m.machine->begun()) {  // a mission after another: nothing was done yet, the water is gone
+    WorldState fresh = initialWorld(m.context.devices.arena);
+    const WorldState& before = m.context.world();
+    fresh.resets = before.resets;
+    fresh.sprayed_l_est = before.sprayed_l_est;
+    fresh.tank_l_est = before.tank_l_est;
+    m.context.devices.world.edit() = std::move(fresh);
+    m.context.aim.reset();
+    m.context.place_checks.clear();
+    m.mapping.passed = 0;
+    m.mapping.faults = 0;
+  }
+  m.context.devices.world.startClock(now);
+  m.machine->start(m.machine->begun() ? randomUuid() : std::string(), now);
 }
 
 void FireMission::tick(Stamp now) {

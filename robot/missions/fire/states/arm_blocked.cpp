@@ -13,9 +13,13 @@ void ArmBlocked::enter() {
   c.pumpsOff(now());
   c.devices.arm.cancel();  // a Hold setpoint also clears the latched contact
   c.aim.reset();
+  c.devices.arm.startBack(c.config.faults.back_off_s, now());
+}
+
+void ArmBlocked::arrive() {
+  FireContext& c = context();
   ++c.world().blocked_in_row;
   if (c.hasPlace()) ++c.place().arm_faults;
-  c.devices.arm.startBack(c.config.faults.back_off_s, now());
 }
 
 Transition ArmBlocked::execute() {

@@ -10,7 +10,7 @@ class SafeStop;
 
 /// The arm touched something, or cannot get where it should: withdraw, try once more, then go on.
 class ArmBlocked
-    : public FireState<ArmBlocked, To<ArmSearch, NextLocation, SafeStop>, ResumeAt<ArmSearch>> {
+    : public FireState<ArmBlocked, To<ArmSearch, NextLocation, SafeStop>, ResumeAt<NextLocation>> {
  public:
   enum class While { Extended, Stowing };
   static constexpr const char* kGroup = kFaults;
@@ -18,6 +18,7 @@ class ArmBlocked
   static constexpr const char* kConsequence =
       "The pumps stop, the arm withdraws and searches once more, or the robot goes on";
   ArmBlocked(std::string why, While when) : why_(std::move(why)), when_(when) {}
+  void arrive() override;
   void enter() override;
   Transition execute() override;
 

@@ -7,9 +7,10 @@
 
 namespace kiln {
 
+void ArmSearch::arrive() { ++context().place().searches; }
+
 void ArmSearch::enter() {
   FireContext& c = context();
-  ++c.place().searches;
   c.aim.reset();
   c.sweep_started_s = c.world().elapsedS(now());
   c.heat.begin(c.placeNormal());

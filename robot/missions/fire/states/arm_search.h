@@ -16,6 +16,7 @@ class ArmSearch : public FireState<ArmSearch, To<HeatFound, ArmBlocked>, OnTimeo
       "The arm unfolds and moves along a rectangle before the fire place";
   static double timeLimit(const FireContext& context) { return context.config.search.time_limit_s; }
   static std::string denyEntry(const FireContext& context) { return context.whyNoPlace(); }
+  void arrive() override;
   void enter() override;
   Transition execute() override;
   void leave() override;

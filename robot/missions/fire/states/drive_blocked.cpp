@@ -7,9 +7,10 @@
 
 namespace kiln {
 
-void DriveBlocked::enter() {
+void DriveBlocked::enter() { context().devices.base.cancel(); }
+
+void DriveBlocked::arrive() {
   FireContext& c = context();
-  c.devices.base.cancel();
   if (c.world().inside && c.hasPlace())
     ++c.place().drive_faults;
   else

@@ -20,6 +20,7 @@ class DriveBlocked
   static constexpr const char* kConsequence =
       "The robot rests, then tries the drive once more or goes on";
   explicit DriveBlocked(std::string why) : why_(std::move(why)) {}
+  void arrive() override;
   void enter() override;
   Transition execute() override;
 

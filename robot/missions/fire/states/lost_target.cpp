@@ -7,10 +7,11 @@
 
 namespace kiln {
 
+void LostTarget::arrive() { ++context().place().losses; }
+
 void LostTarget::enter() {
   FireContext& c = context();
   c.pumpsOff(now());
-  ++c.place().losses;
   c.place().estimate.reset();  // it has proven wrong
   c.aim.reset();
 }

@@ -14,6 +14,7 @@ class LostTarget : public FireState<LostTarget, To<ArmSearch, NextLocation>> {
   static constexpr const char* kDoc = "The heat source was lost while aiming";
   static constexpr const char* kConsequence = "The arm searches once more, then the robot goes on";
   static std::string denyEntry(const FireContext& context) { return context.whyNoPlace(); }
+  void arrive() override;
   void enter() override;
   Transition execute() override;
 };

@@ -14,6 +14,10 @@ void ProtectiveStop::enter() {
   FireContext& c = context();
   c.haltAll(now());
   c.aim.reset();
+}
+
+void ProtectiveStop::arrive() {
+  FireContext& c = context();
   if (c.hasPlace()) ++c.place().arm_faults;
 }
 

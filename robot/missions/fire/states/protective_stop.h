@@ -20,6 +20,7 @@ class ProtectiveStop
       "The arm has stopped itself; waits for the operator's release";
   static constexpr const char* kConsequence =
       "Everything rests until the arm is released; then the work goes on";
+  void arrive() override;
   void enter() override;
   Transition execute() override;
   void resume() override {}  ///< it is still the same stop

@@ -10,8 +10,9 @@ void PumpFault::enter() {
   FireContext& c = context();
   broken_ = c.devices.pumps.tracking().pump_no_current;
   c.pumpsOff(now());
-  ++c.place().pump_faults;
 }
+
+void PumpFault::arrive() { ++context().place().pump_faults; }
 
 Transition PumpFault::execute() {
   FireContext& c = context();

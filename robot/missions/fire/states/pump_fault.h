@@ -17,6 +17,7 @@ class PumpFault : public FireState<PumpFault, To<StartPump, NextLocation, SafeSt
   static constexpr const char* kDoc = "The pumps draw no current or do not run";
   static constexpr const char* kConsequence = "The pumps stop, rest and are tried once more";
   static std::string denyEntry(const FireContext& context) { return context.whyNoPlace(); }
+  void arrive() override;
   void enter() override;
   Transition execute() override;
 

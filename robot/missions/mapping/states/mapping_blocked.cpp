@@ -5,7 +5,7 @@
 
 namespace kiln {
 
-void MappingBlocked::enter() { ++context().faults; }
+void MappingBlocked::arrive() { ++context().faults; }
 
 Transition MappingBlocked::execute() {
   const MappingContext& c = context();

@@ -14,7 +14,7 @@ class MappingBlocked : public MappingState<MappingBlocked, To<MappingRound, Mapp
   static constexpr const char* kDoc = "The mapping drive failed";
   static constexpr const char* kConsequence = "The robot rests, then tries once more or gives up";
   explicit MappingBlocked(std::string why) : why_(std::move(why)) {}
-  void enter() override;
+  void arrive() override;
   Transition execute() override;
 
  private:

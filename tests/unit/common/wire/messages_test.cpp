@@ -45,20 +45,21 @@ TEST(Messages, EveryCommandKindComesBackAsItself) {
   const auto bodies = everyBody();
   ASSERT_EQ(bodies.size(), std::variant_size_v<CommandBody>);
   for (const CommandBody& body : bodies) {
-    const Command sent{"client", "anna", 42, 3, at(12.5), body};
+    const Command sent{"client", "anna", 42, 3, at(12.5), 5, body};
     const auto message = decodeToRobot(encode(ToRobot{sent}));
     ASSERT_TRUE(message.has_value()) << commandName(body) << ": " << message.error();
     const auto& back = std::get<Command>(*message);
     EXPECT_EQ(back.body.index(), body.index()) << commandName(body);
     EXPECT_EQ(back.nonce, 42u);
     EXPECT_EQ(back.issued, sent.issued);
+    EXPECT_EQ(back.press, 5u);
     // The message is its own proof: encoding again yields the same bytes.
     EXPECT_EQ(encode(ToRobot{back}), encode(ToRobot{sent})) << commandName(body);
   }
 }
 
 TEST(Messages, NotANumberReachesTheGate) {
-  const Command sent{"client", "anna", 1, 1, at(0), JogBase{{std::nan(""), 0, 0}}};
+  const Command sent{"client", "anna", 1, 1, at(0), 1, JogBase{{std::nan(""), 0, 0}}};
   const auto message = decodeToRobot(encode(ToRobot{sent}));
   ASSERT_TRUE(message.has_value());
   EXPECT_TRUE(std::isnan(std::get<JogBase>(std::get<Command>(*message).body).twist.vx_mps));

@@ -10,7 +10,7 @@ TEST(FsmCheckpoint, IsTakenAfterEachTransition) {
   std::vector<FsmCheckpoint> taken;
   f.machine.onTransition([&taken](const FsmCheckpoint& c) { taken.push_back(c); });
   f.kettle.switched_on = f.kettle.boils = true;
-  f.machine.start(f.clock.now());
+  f.machine.start("", f.clock.now());
   f.run(3.0);
   ASSERT_EQ(taken.size(), 4u);
   EXPECT_EQ(taken[1].state, "Heat");
@@ -31,7 +31,20 @@ TEST(FsmCheckpoint, RestoreGoesOnUnderTheSameUuidAndCounter) {
   EXPECT_EQ(status.mission_uuid, "uuid-old");
   EXPECT_TRUE(status.running);
   EXPECT_EQ(status.history.back().cause, TransitionCause::Resume);
-  EXPECT_EQ(f.kettle.calls.back(), "Heat.enter");
+  EXPECT_TRUE(status.paused) << "it stands; nothing moves before somebody lets go";
+  EXPECT_TRUE(f.kettle.calls.empty());
+  f.run(1.0);
+  EXPECT_TRUE(f.kettle.calls.empty());
+  f.machine.resume(f.clock.now());
+  EXPECT_EQ(f.kettle.calls, std::vector<std::string>{"Heat.enter"}) << "entered once, not counted";
+}
+
+TEST(FsmCheckpoint, RestoreAsksWhetherTheStateMayBeEntered) {
+  Fixture f;
+  f.kettle.locked = "the lid is open";
+  ASSERT_TRUE(f.machine.restore({"kettle", "u", 5, "Pour", "Heat"}, f.clock.now()).has_value());
+  EXPECT_EQ(f.status().state, "Idle") << "the start state takes its place";
+  EXPECT_NE(f.status().history.back().note.find("the lid is open"), std::string::npos);
 }
 
 TEST(FsmCheckpoint, RestoreOfAnEndedMissionStaysEnded) {
@@ -53,7 +66,7 @@ TEST(FsmCheckpoint, RestoreRefusesWhatItDoesNotKnow) {
 TEST(FsmRestart, GoesBackToTheStartWithinTheMission) {
   Fixture f;
   f.kettle.switched_on = true;
-  f.machine.start(f.clock.now());
+  f.machine.start("", f.clock.now());
   f.run(1.0);
   f.kettle.switched_on = false;
   f.machine.restart("reset 1", f.clock.now());

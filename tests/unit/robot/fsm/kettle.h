@@ -12,6 +12,7 @@ namespace kiln::kettle {
 struct Kettle {
   std::vector<std::string> calls;  ///< "Heat.enter", ...
   double limit_s = 5.0;
+  int arrivals = 0;
   bool switched_on = false;
   bool boils = false;
   bool alarm = false;
@@ -30,6 +31,7 @@ class KettleState : public State<Kettle, Derived, Targets, Options...> {
   static constexpr const char* kGroup = "kitchen";
   static constexpr const char* kDoc = "test";
   static constexpr const char* kConsequence = "water gets hot";
+  void arrive() override { ++this->context().arrivals; }
   void enter() override { note("enter"); }
   void leave() override { note("leave"); }
   void pause() override { note("pause"); }

@@ -47,8 +47,8 @@ TEST(Machine, DoesNothingBeforeItsStart) {
 
 TEST(Machine, CallsEnterLeaveAndCountsSteps) {
   Fixture f;
-  f.machine.start(f.clock.now());
-  f.machine.start(f.clock.now());  // a second start changes nothing
+  f.machine.start("", f.clock.now());
+  f.machine.start("", f.clock.now());  // a second start changes nothing
   EXPECT_EQ(f.status().step, 1u);
   f.kettle.switched_on = true;
   f.run(0.02);
@@ -66,7 +66,7 @@ TEST(Machine, CallsEnterLeaveAndCountsSteps) {
 
 TEST(Machine, ShowsGuardsWithTheAgeOfTheirInput) {
   Fixture f;
-  f.machine.start(f.clock.now());
+  f.machine.start("", f.clock.now());
   f.run(0.02);
   f.clock.advanceBy(std::chrono::milliseconds(500));
   const FsmStatus status = f.status();
@@ -79,7 +79,7 @@ TEST(Machine, ShowsGuardsWithTheAgeOfTheirInput) {
 
 TEST(Machine, LeavesOnTimeOut) {
   Fixture f;
-  f.machine.start(f.clock.now());
+  f.machine.start("", f.clock.now());
   f.kettle.switched_on = true;
   f.run(0.02);
   f.run(4.98);
@@ -93,7 +93,7 @@ TEST(Machine, LeavesOnTimeOut) {
 TEST(Machine, WatchRunsBeforeExecute) {
   Fixture f;
   f.kettle.switched_on = f.kettle.boils = true;
-  f.machine.start(f.clock.now());
+  f.machine.start("", f.clock.now());
   f.run(0.04);
   ASSERT_EQ(f.status().state, "Pour");
   f.kettle.alarm = true;
@@ -105,7 +105,7 @@ TEST(Machine, WatchRunsBeforeExecute) {
 
 TEST(Machine, KeepsABoundedHistoryWithTimes) {
   Fixture f;
-  f.machine.start(f.clock.now());
+  f.machine.start("", f.clock.now());
   for (int i = 0; i < 20; ++i) {
     f.run(0.1);
     EXPECT_EQ(f.force(i % 2 == 0 ? "Heat" : "Idle").outcome, ChangeStateOutcome::Ok);

@@ -8,7 +8,7 @@ namespace {
 TEST(MachinePause, StopsThePollingAndTheTimeInTheState) {
   Fixture f;
   f.kettle.switched_on = true;
-  f.machine.start(f.clock.now());
+  f.machine.start("", f.clock.now());
   f.run(3.02);  // 3 s in Heat, limit 5 s
   f.machine.pause("teleop", f.clock.now());
   f.run(60.0);
@@ -26,7 +26,7 @@ TEST(MachinePause, StopsThePollingAndTheTimeInTheState) {
 
 TEST(MachinePause, DefersEnterOfAStateForcedMeanwhile) {
   Fixture f;
-  f.machine.start(f.clock.now());
+  f.machine.start("", f.clock.now());
   f.machine.pause("operator", f.clock.now());
   ASSERT_EQ(f.force("Heat").outcome, ChangeStateOutcome::Ok);
   EXPECT_EQ(f.status().state, "Heat");
@@ -40,11 +40,44 @@ TEST(MachinePause, DefersEnterOfAStateForcedMeanwhile) {
 
 TEST(MachinePause, EndsWhenATerminalStateIsForced) {
   Fixture f;
-  f.machine.start(f.clock.now());
+  f.machine.start("", f.clock.now());
   f.machine.pause("operator", f.clock.now());
   ASSERT_EQ(f.force("Spilt").outcome, ChangeStateOutcome::Ok);
   EXPECT_TRUE(f.status().terminal && !f.status().paused && !f.status().success);
   EXPECT_EQ(f.kettle.calls.back(), "Spilt.enter");
+}
+
+TEST(MachinePause, HoldsAMachineThatDoesNotRunYet) {
+  Fixture f;
+  f.machine.pause("STOP", f.clock.now());
+  f.machine.start("", f.clock.now());
+  f.kettle.switched_on = true;
+  f.run(1.0);
+  EXPECT_TRUE(f.kettle.calls.empty()) << "started, and at the threshold of its first state";
+  EXPECT_TRUE(f.status().paused);
+  f.machine.resume(f.clock.now());
+  EXPECT_EQ(f.kettle.calls.back(), "Idle.enter");
+  EXPECT_EQ(f.kettle.arrivals, 1);
+}
+
+TEST(MachinePause, HoldsWhatIsForcedAfterTheEnd) {
+  Fixture f;
+  f.machine.start("", f.clock.now());
+  ASSERT_EQ(f.force("Spilt").outcome, ChangeStateOutcome::Ok);
+  f.machine.pause("driven by hand", f.clock.now());
+  ASSERT_EQ(f.force("Heat").outcome, ChangeStateOutcome::Ok);
+  f.run(60.0);
+  EXPECT_EQ(f.status().state, "Heat") << "its time limit of 5 s does not run";
+  EXPECT_EQ(f.kettle.calls.back(), "Spilt.enter");
+  EXPECT_TRUE(f.status().paused);
+}
+
+TEST(MachinePause, DoesNotCountTheVisitAgain) {
+  Fixture f;
+  f.machine.start("", f.clock.now());
+  f.machine.pause("operator", f.clock.now());
+  f.machine.resume(f.clock.now());
+  EXPECT_EQ(f.kettle.arrivals, 1);
 }
 
 TEST(ChangeState, NeedsAStartedMission) {
@@ -54,7 +87,7 @@ TEST(ChangeState, NeedsAStartedMission) {
 
 TEST(ChangeState, AnswersEachOutcome) {
   Fixture f;
-  f.machine.start(f.clock.now());
+  f.machine.start("", f.clock.now());
   EXPECT_EQ(f.force("Boil").outcome, ChangeStateOutcome::NoSuchState);
   EXPECT_EQ(f.force("Pour").outcome, ChangeStateOutcome::NeedsArguments);
   f.kettle.locked = "the lid is open";
@@ -68,7 +101,7 @@ TEST(ChangeState, AnswersEachOutcome) {
 
 TEST(ChangeState, ComparesStepAndNameBeforeItSets) {
   Fixture f;
-  f.machine.start(f.clock.now());
+  f.machine.start("", f.clock.now());
   const FsmStatus seen = f.status();
   f.kettle.switched_on = true;
   f.run(0.02);  // Idle -> Heat behind the operator's back
@@ -87,7 +120,7 @@ TEST(ChangeState, ComparesStepAndNameBeforeItSets) {
 
 TEST(ChangeState, RevivesAMissionThatHasEnded) {
   Fixture f;
-  f.machine.start(f.clock.now());
+  f.machine.start("", f.clock.now());
   ASSERT_EQ(f.force("Spilt").outcome, ChangeStateOutcome::Ok);
   EXPECT_FALSE(f.status().running);
   ASSERT_EQ(f.force("Heat").outcome, ChangeStateOutcome::Ok);

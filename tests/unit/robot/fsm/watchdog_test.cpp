@@ -44,7 +44,7 @@ TEST(Watchdog, NamesTheStateAndMethodThatBlocks) {
   MachineOf<Pot, Stuck, Off> machine({.mission = "pot"}, clock, pot);
   pot.clock = &clock;
   pot.machine = &machine;
-  machine.start(clock.now());
+  machine.start("", clock.now());
   machine.step(clock.now());
   EXPECT_EQ(pot.seen_inside, "") << "0.9 s is below the limit of 1 s";
   EXPECT_EQ(pot.seen_from_elsewhere, "Stuck::execute has not returned for 1.2 s");

@@ -13,29 +13,52 @@ using ::testing::SizeIs;
 Stamp at(double s) { return Stamp{fromSeconds(s)}; }
 
 /// Steps an authority through time, with anna as its only client.
-struct Desk {
+struct Desk : Authority::Handler {
+  struct Result : Authority::Step {
+    std::vector<Authority::Accepted> accepted;
+    std::vector<HoldKind> released;
+    bool lease_lost = false;
+  };
+  Result result;
+  std::uint64_t press = 1;
   Authority authority{Authority::Config{}};
-  GateSituation situation;
+  GateSituation found;
   double now_s = 10.0;
   std::uint64_t nonce = 0;
   bool alive = true;
 
   Desk() {
-    situation.mode = Mode::Teleop;
-    situation.view_age_s = 0.1;
+    found.mode = Mode::Teleop;
+    found.view_age_s = 0.1;
   }
   ReceivedCommand command(CommandBody body) {
     ReceivedCommand received;
     received.command = {"anna",    "Anna",         ++nonce, authority.lease(at(now_s)).epoch,
-                        at(now_s), std::move(body)};
+                        at(now_s), press, std::move(body)};
     received.received = at(now_s);
     return received;
   }
-  Authority::Step step(std::vector<ReceivedCommand> commands, std::vector<StopEvent> stops = {}) {
+  [[nodiscard]] GateSituation situation(Stamp) const override { return found; }
+  std::optional<CommandAck> execute(const Authority::Accepted& accepted, Stamp) override {
+    result.accepted.push_back(accepted);
+    if (const auto* mode = std::get_if<SetMode>(&accepted.command.body)) found.mode = mode->mode;
+    return std::nullopt;
+  }
+  void onReleased(const std::vector<HoldKind>& kinds, Stamp) override { result.released = kinds; }
+  void onLeaseLost(Stamp) override { result.lease_lost = true; }
+  Result step(const std::vector<ReceivedCommand>& commands, bool stop = false) {
+    if (stop) {
+      found.stop_latched = true;
+      ++found.stop_generation;
+    }
+    result = {};
     std::vector<OperatorPeer> peers(1);
     peers[0].client_id = "anna";
     peers[0].last_heard = alive ? at(now_s) : at(0.0);
-    return authority.step(std::move(commands), peers, stops, situation, at(now_s));
+    Authority::Step done = authority.step(commands, peers, *this, at(now_s));
+    result.acks = std::move(done.acks);
+    result.events = std::move(done.events);
+    return result;
   }
   void takeControl() {
     ASSERT_EQ(step({command(AcquireLease{})}).acks.at(0).outcome, AckOutcome::Done);
@@ -56,7 +79,7 @@ TEST(Authority, StopRevokesEndsHoldsAndRefusesWhatCameWithIt) {
   desk.takeControl();
   EXPECT_THAT(desk.step({desk.command(kForward)}).accepted, SizeIs(1));
   const auto epoch = desk.authority.epoch().value();
-  const auto step = desk.step({desk.command(kForward)}, {{"guest", "Guest", at(desk.now_s)}});
+  const auto step = desk.step({desk.command(kForward)}, true);
   EXPECT_THAT(step.accepted, IsEmpty());
   EXPECT_EQ(step.acks.at(0).code, "no_lease");
   EXPECT_TRUE(step.lease_lost);
@@ -76,6 +99,39 @@ TEST(Authority, NothingQueuedDuringSilenceIsExecutedAfterIt) {
   const auto step = desk.step(queued);
   EXPECT_THAT(step.accepted, IsEmpty());
   for (const CommandAck& ack : step.acks) EXPECT_EQ(ack.code, "too_old");
+}
+
+TEST(Authority, AHoldThatALinkGapHasEndedNeedsANewPress) {
+  Desk desk;
+  desk.takeControl();
+  EXPECT_THAT(desk.step({desk.command(kForward)}).accepted, SizeIs(1));
+  desk.now_s += 0.4;  // nothing came through
+  const auto step = desk.step({desk.command(kForward)});
+  EXPECT_THAT(step.accepted, IsEmpty());
+  ASSERT_THAT(step.acks, SizeIs(1));
+  EXPECT_EQ(step.acks[0].code, "press_over");
+  EXPECT_THAT(step.released, Contains(HoldKind::BaseJog));
+  ++desk.press;
+  EXPECT_THAT(desk.step({desk.command(kForward)}).accepted, SizeIs(1));
+}
+
+TEST(Authority, APressRefusedForTheModeStaysRefusedWhenTheModeChanges) {
+  Desk desk;
+  desk.takeControl();
+  desk.found.mode = Mode::Autonomous;
+  EXPECT_THAT(desk.step({desk.command(kForward)}).accepted, IsEmpty());
+  desk.found.mode = Mode::Teleop;
+  EXPECT_EQ(desk.step({desk.command(kForward)}).acks.at(0).code, "press_over");
+}
+
+TEST(Authority, EachCommandIsJudgedAgainstWhatTheOneBeforeHasChanged) {
+  Desk desk;
+  desk.takeControl();
+  desk.found.mode = Mode::None;
+  desk.found.ready = true;
+  const auto step = desk.step({desk.command(SetMode{Mode::Teleop}), desk.command(StartMission{})});
+  ASSERT_THAT(step.accepted, SizeIs(1));
+  EXPECT_EQ(step.acks.at(0).code, "wrong_mode");
 }
 
 TEST(Authority, DeadHolderIsADeadMan) {

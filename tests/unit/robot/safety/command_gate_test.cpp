@@ -30,7 +30,7 @@ struct Desk {
   }
   ReceivedCommand make(CommandBody body) {
     ReceivedCommand received;
-    received.command = {"anna", "Anna", ++nonce, 3, now - fromSeconds(0.02), std::move(body)};
+    received.command = {"anna", "Anna", ++nonce, 3, now - fromSeconds(0.02), 1, std::move(body)};
     received.received = now;
     received.rtt_s = 0.01;
     return received;
@@ -155,7 +155,7 @@ TEST(CommandGate, FollowsTheModeTable) {
   };
   for (const Row& row :
        {Row{Mode::Autonomous, true, false, false, false},
-        Row{Mode::Supervised, true, true, false, false}, Row{Mode::Teleop, true, true, true, true},
+        Row{Mode::Supervised, true, false, false, false}, Row{Mode::Teleop, true, true, true, true},
         Row{Mode::Stopped, false, false, false, false}}) {
     Desk desk;
     desk.situation.mode = row.mode;
@@ -200,6 +200,9 @@ TEST(CommandGate, StopIsClearedOnlyWhenNothingIsHeld) {
   EXPECT_EQ(desk.code(ClearStop{}), "still_held");
   desk.situation.anything_held = false;
   EXPECT_EQ(desk.code(ClearStop{}), "");
+  desk.situation.stop_generation = 8;  // somebody pressed again while this clear was on its way
+  EXPECT_EQ(desk.code(ClearStop{7}), "newer_stop");
+  EXPECT_EQ(desk.code(ClearStop{8}), "");
 }
 
 TEST(CommandGate, MissionCommandsNeedTheirPremises) {
@@ -215,9 +218,13 @@ TEST(CommandGate, MissionCommandsNeedTheirPremises) {
   EXPECT_THAT(decision.reason, HasSubstr("LiDAR"));
   desk.situation.ready = true;
   EXPECT_EQ(desk.code(StartMission{}), "");
-  desk.situation.mission_running = true;
+  desk.situation.phase = MissionPhase::Running;
   EXPECT_EQ(desk.code(StartMission{}), "already_running");
   EXPECT_EQ(desk.code(ReleaseProtectiveStop{}), "no_protective_stop");
+  desk.situation.phase = MissionPhase::Held;
+  EXPECT_EQ(desk.code(Resume{}), "");
+  desk.situation.position_lost = "position lost: no wall fits";
+  EXPECT_EQ(desk.code(Resume{}), "position_lost");
   EXPECT_EQ(desk.code(SetMode{Mode::Stopped}), "out_of_range");
 }
 
@@ -228,9 +235,9 @@ TEST(CommandGate, APoseIsSetAtRestAndNotUnderARunningMission) {
   desk.situation.base_moving = true;
   EXPECT_EQ(desk.code(pose), "moving");
   desk.situation.base_moving = false;
-  desk.situation.mission_running = true;
+  desk.situation.phase = MissionPhase::Running;
   EXPECT_EQ(desk.code(pose), "mission_running");
-  desk.situation.mission_paused = true;
+  desk.situation.phase = MissionPhase::Held;
   EXPECT_EQ(desk.code(pose), "");
   EXPECT_EQ(desk.code(SetPose{{kNan, 0, 0}}), "not_finite");
   EXPECT_EQ(desk.code(SetPose{{0, 1e6, 0}}), "out_of_range");
@@ -252,7 +259,7 @@ TEST(CommandGate, NudgesAreSmallAndNeedTheLease) {
 TEST(CommandGate, GoingOnDespiteACheckNeedsAMissionThatRuns) {
   Desk desk;
   EXPECT_EQ(desk.code(ContinueDespite{"place 1"}), "not_running");
-  desk.situation.mission_running = true;
+  desk.situation.phase = MissionPhase::Running;
   EXPECT_EQ(desk.code(ContinueDespite{"place 1"}), "");
   desk.situation.stop_latched = true;
   EXPECT_EQ(desk.code(ContinueDespite{"place 1"}), "stopped");

@@ -118,6 +118,7 @@ void FireRig::killAndResume() {
   }
   const auto resumed = mission->resumeFrom(options_.checkpoint_path, clock.now());
   ASSERT_TRUE(resumed.has_value()) << resumed.error();
+  mission->machine().resume(clock.now());
 }
 
 void FireRig::run(double seconds) {

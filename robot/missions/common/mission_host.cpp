@@ -1,0 +1,137 @@
+#include "robot/missions/common/mission_host.h"
+
+#include <utility>
+
+#include "common/core/check.h"
+#include "common/core/log.h"
+
+namespace kiln {
+
+MissionHost::MissionHost(Machine& machine, StopLatch& stop, std::function<void(Stamp)> begin)
+    : machine_(machine), stop_(stop), begin_(std::move(begin)) {}
+
+void MissionHost::waitFor(Wait wish, Stamp now) {
+  wait_ = wish;
+  if (wish == Wait::Resume)
+    hold(HoldReason::Restored, "restored from its checkpoint: waits for sensors and position", now);
+  wait_ = wish;
+}
+
+void MissionHost::start(Stamp now) {
+  KILN_CHECK(!stop_.latched() && mode_ != Mode::Teleop && !machine_.running());
+  wait_ = Wait::None;
+  holds_.clear();
+  machine_.resume(now);  // nothing runs: only lets go
+  mode_ = Mode::Autonomous;
+  ++starts_;
+  begin_(now);
+  logger("mission")->info("mission started");
+}
+
+void MissionHost::resume(Stamp now) {
+  KILN_CHECK(!stop_.latched() && mode_ != Mode::Teleop);
+  wait_ = Wait::None;
+  holds_.clear();
+  mode_ = Mode::Autonomous;
+  machine_.resume(now);
+}
+
+void MissionHost::hold(HoldReason reason, const std::string& text, Stamp now) {
+  if (wait_ != Wait::None && reason != HoldReason::Restored) endWaiting(text);
+  holds_.insert_or_assign(reason, text);
+  machine_.pause(text, now);
+}
+
+void MissionHost::endWaiting(const std::string& why) {
+  logger("mission")->warn("the {} asked for at the program's start is off: {}; an operator decides",
+                          wait_ == Wait::Start ? "start" : "resume", why);
+  wait_ = Wait::None;
+}
+
+void MissionHost::drop(HoldReason reason, Stamp now) {
+  holds_.erase(reason);
+  if (holds_.empty()) machine_.resume(now);
+}
+
+void MissionHost::enterTeleop(const std::string& who, Stamp now) {
+  hold(HoldReason::Teleop, who + " drives by hand", now);
+  mode_ = Mode::Teleop;
+}
+
+void MissionHost::leaveTeleop(const std::string& who, Stamp now) {
+  if (mode_ != Mode::Teleop) return;
+  mode_ = machine_.running() ? Mode::Autonomous : Mode::None;
+  if (machine_.running())
+    hold(HoldReason::OperatorPause, "given back by " + who + "; resume it to go on", now);
+  drop(HoldReason::Teleop, now);
+}
+
+bool MissionHost::clearStop(std::uint64_t generation, Stamp now) {
+  if (!stop_.clear(generation)) return false;
+  if (!machine_.running()) drop(HoldReason::Stop, now);
+  return true;
+}
+
+ChangeStateResult MissionHost::force(const ChangeState& change, const std::string& who, Stamp now) {
+  const ChangeStateResult result = machine_.changeState(change, who, now);
+  if (result.outcome == ChangeStateOutcome::Ok && mode_ == Mode::None) mode_ = Mode::Autonomous;
+  return result;
+}
+
+bool MissionHost::observeStop(Stamp now) {
+  const std::uint64_t generation = stop_.generation();
+  if (!stop_.latched() || generation == stop_seen_) return false;
+  stop_seen_ = generation;
+  hold(HoldReason::Stop, "STOP by " + stop_.source(), now);
+  return true;
+}
+
+bool MissionHost::mayMove() const {
+  return machine_.running() && !machine_.held() && !stop_.latched() && mode_ != Mode::Teleop;
+}
+
+void MissionHost::check() const {
+  KILN_CHECK(machine_.held() == !holds_.empty(), "the machine is held for a reason, and only then");
+  KILN_CHECK(mode_ != Mode::Teleop || machine_.held(), "in Teleop the machine stands");
+}
+
+MissionPhase MissionHost::phase() const {
+  if (wait_ != Wait::None) return MissionPhase::Waiting;
+  if (machine_.running()) return machine_.held() ? MissionPhase::Held : MissionPhase::Running;
+  return machine_.begun() ? MissionPhase::Ended : MissionPhase::Idle;
+}
+
+std::vector<MissionHold> MissionHost::holds() const {
+  std::vector<MissionHold> out;
+  if (machine_.running())
+    for (const auto& [reason, text] : holds_) out.push_back({reason, text});
+  return out;
+}
+
+std::string MissionHost::reason() const {
+  if (stop_.latched()) return "STOP by " + stop_.source();
+  if (const auto teleop = holds_.find(HoldReason::Teleop); teleop != holds_.end())
+    return teleop->second;
+  return machine_.running() && !holds_.empty() ? holds_.begin()->second : std::string();
+}
+
+StatusWord MissionHost::word(bool ready) const {
+  if (stop_.latched()) return StatusWord::Stopped;
+  if (mode_ == Mode::Teleop) return StatusWord::Teleop;
+  switch (phase()) {
+    case MissionPhase::Running:
+      return StatusWord::Auto;
+    case MissionPhase::Held:
+      return StatusWord::Paused;
+    case MissionPhase::Waiting:
+      return machine_.running() ? StatusWord::Paused
+             : ready            ? StatusWord::Ready
+                                : StatusWord::NotReady;
+    case MissionPhase::Idle:
+    case MissionPhase::Ended:
+      break;
+  }
+  return ready ? StatusWord::Ready : StatusWord::NotReady;
+}
+
+}  // namespace kiln

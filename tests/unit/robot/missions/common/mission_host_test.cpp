@@ -1,0 +1,161 @@
+#include "robot/missions/common/mission_host.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/robot/fsm/kettle.h"
+
+namespace kiln::kettle {
+namespace {
+
+/// The kettle's machine under a host.
+struct Desk : Fixture {
+  StopLatch stop;
+  MissionHost host{machine, stop, [this](Stamp now) { machine.start("", now); }};
+  Desk() { kettle.switched_on = false; }
+  [[nodiscard]] Stamp now() const { return clock.now(); }
+  void begin() {
+    host.start(now());
+    run(0.1);
+  }
+  void press() {
+    (void)stop.set("Ann", now());
+    (void)host.observeStop(now());
+  }
+  [[nodiscard]] bool clear() { return host.clearStop(stop.generation(), now()); }
+  /// Whether a second changes anything that the machine does.
+  [[nodiscard]] bool moves() {
+    const auto calls = kettle.calls.size();
+    kettle.switched_on = true;
+    run(1.0);
+    host.check();
+    return kettle.calls.size() != calls;
+  }
+};
+
+TEST(MissionHost, GoesThroughItsPhases) {
+  Desk d;
+  EXPECT_EQ(d.host.phase(), MissionPhase::Idle);
+  d.host.waitFor(MissionHost::Wait::Start, d.now());
+  EXPECT_EQ(d.host.phase(), MissionPhase::Waiting);
+  d.begin();
+  EXPECT_EQ(d.host.phase(), MissionPhase::Running);
+  EXPECT_EQ(d.host.word(true), StatusWord::Auto);
+  d.host.hold(HoldReason::OperatorPause, "paused by Ann", d.now());
+  EXPECT_EQ(d.host.phase(), MissionPhase::Held);
+  EXPECT_EQ(d.host.word(true), StatusWord::Paused);
+  EXPECT_EQ(d.host.reason(), "paused by Ann");
+  d.host.resume(d.now());
+  EXPECT_EQ(d.host.phase(), MissionPhase::Running);
+  ASSERT_EQ(d.force("Spilt").outcome, ChangeStateOutcome::Ok);
+  EXPECT_EQ(d.host.phase(), MissionPhase::Ended);
+  EXPECT_EQ(d.host.word(true), StatusWord::Ready);
+  d.begin();
+  EXPECT_EQ(d.host.phase(), MissionPhase::Running);
+  EXPECT_EQ(d.host.starts(), 2);
+}
+
+// B1: STOP before the start, cleared before or after the checks pass.
+TEST(MissionHost, AStopEndsTheWaitingForAStart) {
+  Desk d;
+  d.host.waitFor(MissionHost::Wait::Start, d.now());
+  d.press();
+  EXPECT_EQ(d.host.waiting(), MissionHost::Wait::None);
+  EXPECT_EQ(d.host.mode(), Mode::Stopped);
+  ASSERT_TRUE(d.clear());
+  EXPECT_EQ(d.host.phase(), MissionPhase::Idle);
+  EXPECT_FALSE(d.moves());
+  d.begin();
+  EXPECT_EQ(d.host.phase(), MissionPhase::Running) << "a start by hand is a new act";
+}
+
+TEST(MissionHost, AStopEndsTheWaitingForAResume) {
+  Desk d;
+  ASSERT_TRUE(d.machine.restore({"kettle", "u", 5, "Idle", "Idle"}, d.now()).has_value());
+  d.host.waitFor(MissionHost::Wait::Resume, d.now());
+  EXPECT_EQ(d.host.phase(), MissionPhase::Waiting);
+  EXPECT_FALSE(d.moves());
+  d.press();
+  ASSERT_TRUE(d.clear());
+  EXPECT_EQ(d.host.phase(), MissionPhase::Held);
+  EXPECT_FALSE(d.moves());
+  d.host.resume(d.now());
+  EXPECT_TRUE(d.moves());
+}
+
+TEST(MissionHost, TeleopEndsTheWaiting) {
+  Desk d;
+  d.host.waitFor(MissionHost::Wait::Start, d.now());
+  d.host.enterTeleop("Ann", d.now());
+  EXPECT_EQ(d.host.waiting(), MissionHost::Wait::None);
+  EXPECT_EQ(d.host.word(true), StatusWord::Teleop);
+  d.host.leaveTeleop("Ann", d.now());
+  EXPECT_EQ(d.host.mode(), Mode::None);
+  EXPECT_EQ(d.host.phase(), MissionPhase::Idle);
+  EXPECT_FALSE(d.machine.held()) << "and nothing stands in the way of a start";
+}
+
+// B2: leaving Teleop forgets neither Pause, nor STOP, nor a lost position, and drives nothing.
+TEST(MissionHost, LeavingTeleopMovesNothing) {
+  for (const HoldReason reason :
+       {HoldReason::OperatorPause, HoldReason::PositionLost, HoldReason::Teleop}) {
+    Desk d;
+    d.begin();
+    if (reason != HoldReason::Teleop) d.host.hold(reason, "why", d.now());
+    d.host.enterTeleop("Ann", d.now());
+    d.host.leaveTeleop("Ann", d.now());
+    EXPECT_EQ(d.host.mode(), Mode::Autonomous);
+    EXPECT_EQ(d.host.phase(), MissionPhase::Held);
+    EXPECT_FALSE(d.moves());
+    d.host.resume(d.now());
+    EXPECT_TRUE(d.moves());
+  }
+}
+
+// B3: forced after the end, in Teleop.
+TEST(MissionHost, AForcedStateInTeleopWaits) {
+  Desk d;
+  d.begin();
+  ASSERT_EQ(d.force("Spilt").outcome, ChangeStateOutcome::Ok);
+  d.host.enterTeleop("Ann", d.now());
+  const FsmStatus seen = d.status();
+  ASSERT_EQ(d.host.force({seen.state, seen.step, "Idle"}, "Ann", d.now()).outcome,
+            ChangeStateOutcome::Ok);
+  EXPECT_EQ(d.host.phase(), MissionPhase::Held);
+  EXPECT_FALSE(d.host.mayMove());
+  EXPECT_FALSE(d.moves());
+  d.host.leaveTeleop("Ann", d.now());
+  EXPECT_FALSE(d.moves());
+}
+
+// B4: a STOP that was acknowledged cannot be erased by a clear that was on its way.
+TEST(MissionHost, AClearEndsOnlyTheStopThatItNames) {
+  Desk d;
+  d.begin();
+  d.press();
+  const auto seen = d.stop.generation();
+  (void)d.stop.set("Ben", d.now());
+  EXPECT_FALSE(d.host.clearStop(seen, d.now()));
+  EXPECT_TRUE(d.stop.latched());
+  EXPECT_TRUE(d.host.observeStop(d.now())) << "each STOP is told once";
+  EXPECT_FALSE(d.host.observeStop(d.now()));
+  ASSERT_TRUE(d.clear());
+  EXPECT_EQ(d.host.phase(), MissionPhase::Held);
+  EXPECT_FALSE(d.moves());
+}
+
+TEST(MissionHost, NamesEachReason) {
+  Desk d;
+  d.begin();
+  d.host.hold(HoldReason::PositionLost, "position lost", d.now());
+  d.host.enterTeleop("Ann", d.now());
+  d.press();
+  const auto holds = d.host.holds();
+  ASSERT_EQ(holds.size(), 3u);
+  EXPECT_EQ(holds[0].reason, HoldReason::Teleop);
+  EXPECT_EQ(holds[1].reason, HoldReason::Stop);
+  EXPECT_EQ(holds[2].reason, HoldReason::PositionLost);
+  EXPECT_EQ(d.host.reason(), "STOP by Ann");
+}
+
+}  // namespace
+}  // namespace kiln::kettle
