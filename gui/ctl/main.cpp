@@ -78,14 +78,12 @@ void addMission(CLI::App& app, Request& request) {
                                 : kiln::ctl::transition(console, request.from_or_to, request.to);
     };
   });
-  CLI::App* mode = app.add_subcommand("mode", "autonomous, supervised or teleop");
+  CLI::App* mode = app.add_subcommand("mode", "autonomous or teleop");
   mode->add_option("MODE", request.mode)
       ->required()
-      ->check(CLI::IsMember({"autonomous", "supervised", "teleop"}));
+      ->check(CLI::IsMember({"autonomous", "teleop"}));
   mode->callback([&request] {
-    const auto wanted = request.mode == "teleop"       ? kiln::Mode::Teleop
-                        : request.mode == "supervised" ? kiln::Mode::Supervised
-                                                       : kiln::Mode::Autonomous;
+    const auto wanted = request.mode == "teleop" ? kiln::Mode::Teleop : kiln::Mode::Autonomous;
     request.run = [wanted](Console& console) {
       return kiln::ctl::commandWithControl(console, kiln::SetMode{wanted});
     };

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/record/jpeg_size.h"
+
 namespace kiln::gui {
 
 namespace {
@@ -34,6 +36,10 @@ RgbImagePtr JpegDecoder::decode(const JpegImage& picture) {
   if (picture.width <= 0 || picture.height <= 0 || picture.width > kMaxSide_px ||
       picture.height > kMaxSide_px)
     return {};
+  // What the picture itself says, before memory is taken for it.
+  const auto size =
+      jpegSize({reinterpret_cast<const char*>(picture.jpeg.data()), picture.jpeg.size()});
+  if (!size || size->width != picture.width || size->height != picture.height) return {};
   const QImage image =
       QImage::fromData(picture.jpeg.data(), static_cast<int>(picture.jpeg.size()), "JPEG")
           .convertToFormat(QImage::Format_RGB888);

@@ -1,7 +1,6 @@
 #include "robot/app/mission_control.h"
 
 #include "common/core/log.h"
-#include "robot/safety/gate_rules.h"
 
 namespace kiln {
 namespace {
@@ -51,25 +50,6 @@ GateSituation MissionControl::situation(Stamp now) const {
   found.stop_generation = parts_.stop.generation();
   found.stop_source = parts_.stop.source();
   return found;
-}
-
-void MissionControl::startWhenReady(Stamp now) {
-  const MissionHost::Wait wait = parts_.host.waiting();
-  if (wait == MissionHost::Wait::None) return;
-  GateSituation found = situation(now);
-  // Restored, the mission is as good as held; what resumes it must find the robot ready as well.
-  const GateDecision start = gate::checkSituation(StartMission{}, found);
-  found.phase = MissionPhase::Held;
-  const GateDecision decision = wait == MissionHost::Wait::Start || !start.accepted
-                                    ? start
-                                    : gate::checkSituation(Resume{}, found);
-  if (decision.accepted) {
-    if (wait == MissionHost::Wait::Start) return parts_.host.start(now);
-    parts_.host.resume(now);
-    logger("mission")->warn("mission resumed from its checkpoint");
-  } else if (decision.code != "not_ready" && decision.code != "position_lost") {
-    parts_.host.hold(HoldReason::OperatorPause, decision.reason, now);
-  }
 }
 
 std::optional<CommandAck> MissionControl::execute(const Authority::Accepted& accepted, Stamp now) {
@@ -220,8 +200,7 @@ void MissionControl::onLeaseLost(Stamp now) {
 void MissionControl::observeStop(Stamp now) {
   if (!parts_.host.observeStop(now)) return;
   endHandWork(now);
-  logger("safety")->error("{}; clear it from a station that holds the lease",
-                          parts_.host.reason());
+  logger("safety")->error("{}; clear it from a station that holds the lease", parts_.host.reason());
 }
 
 void MissionControl::holdMission(HoldReason reason, const std::string& text, Stamp now) {

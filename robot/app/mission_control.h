@@ -16,8 +16,8 @@
 namespace kiln {
 
 /// Executes the commands that the authority has let through, and lets what was asked for at the
-/// program's start pass the same gate. Mode, STOP and mission belong to MissionHost. Confined to the
-/// mission thread.
+/// program's start pass the same gate. Mode, STOP and mission belong to MissionHost. Confined to
+/// the mission thread.
 class MissionControl final : public Authority::Handler {
  public:
   struct Parts {
@@ -45,10 +45,9 @@ class MissionControl final : public Authority::Handler {
   void onReleased(const std::vector<HoldKind>& kinds, Stamp now) override;
   void onLeaseLost(Stamp now) override;
 
-  /// A STOP from anywhere holds the mission and ends what is done by hand. Before anything of a tick.
+  /// A STOP from anywhere holds the mission and ends what is done by hand. Before anything of a
+  /// tick.
   void observeStop(Stamp now);
-  /// --start and --resume: go on as soon as the gate lets it; any other refusal ends the waiting.
-  void startWhenReady(Stamp now);
   /// Autonomy may not go on: the mission waits, with the reason, for an operator to resume it.
   void holdMission(HoldReason reason, const std::string& text, Stamp now);
   /// The world says that the robot was carried back to its start.

@@ -54,7 +54,8 @@ std::string late(const char* sensor, const char* product, std::optional<double> 
   if (!sensor_age_s || *sensor_age_s > sensor_limit_s) return {};
   if (!product_age_s) return fmt::format("no {} yet although the {} delivers", product, sensor);
   if (*product_age_s <= limit_s) return {};
-  return fmt::format("no {} for {:.1f} s although the {} delivers", product, *product_age_s, sensor);
+  return fmt::format("no {} for {:.1f} s although the {} delivers", product, *product_age_s,
+                     sensor);
 }
 
 Check perceptionCheck(const PreflightInputs& in, const PreflightLimits& limits) {

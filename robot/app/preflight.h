@@ -70,8 +70,8 @@ struct PreflightLimits {
 [[nodiscard]] std::vector<Check> preflight(const PreflightInputs& inputs,
                                            const PreflightLimits& limits);
 [[nodiscard]] bool allOk(const std::vector<Check>& checks);
-/// What perception owes: frames arrive and nothing is made of them ("no cloud for 3.1 s although the
-/// LiDAR delivers"). Empty: it keeps up, or its sensors are silent, which is their own row.
+/// What perception owes: frames arrive and nothing is made of them ("no cloud for 3.1 s although
+/// the LiDAR delivers"). Empty: it keeps up, or its sensors are silent, which is their own row.
 [[nodiscard]] std::string lateProduct(const PreflightInputs& inputs, const PreflightLimits& limits);
 /// "LiDAR: no data for 2.1 s; check its cable and power" or empty.
 [[nodiscard]] std::string firstFailure(const std::vector<Check>& checks);

@@ -100,6 +100,10 @@ Robot::Impl::Impl(const RobotSettings& settings_in, const RobotOptions& options_
 void Robot::Impl::start(Executor& executor) {
   const Stamp now = clock.now();
   limits = controllerLimits(settings, robot);
+  mission.keepHolds([this] {
+    // Waiting for its sensors after a restart, a mission runs as far as the next restart goes.
+    return host.waiting() == MissionHost::Wait::None ? host.holds() : std::vector<MissionHold>{};
+  });
   log_sink = addLogSink([this](const LogRecord& record) { telemetry.onLog(record, clock.now()); });
   localizer.reset(options.start_pose.value_or(arena.start.pose()), now);
   resets_seen = devices.resets();
@@ -122,9 +126,9 @@ void Robot::Impl::start(Executor& executor) {
   if (options.resume) {
     beginReport(now);
     localizer.reset(world.state().X_map_base, now);
-    if (mission.machine().running()) host.waitFor(MissionHost::Wait::Resume, now);
+    host.restored(mission.restoredHolds(), now);
   } else if (options.start) {
-    host.waitFor(MissionHost::Wait::Start, now);
+    host.waitForStart();
   }
 }
 
@@ -143,7 +147,7 @@ void Robot::Impl::missionTick(Stamp now) {
   watchMotion(now);
   obeyOperators(now);
   runChecks(now);
-  control.startWhenReady(now);
+  host.goOnWhenAllowed(control.situation(now), now);
   control.step(now);
   keepBooks(now);
   raiseAlarms(now);
@@ -307,9 +311,7 @@ void Robot::Impl::recordEstimate(Stamp image, const Eigen::Isometry3d& X_map_the
                           estimate->baseline_range_m, estimate->views, estimate->place});
 }
 
-Result<void> Robot::Impl::restore(Stamp now) {
-  return mission.resumeFrom(checkpointPath(), now);
-}
+Result<void> Robot::Impl::restore(Stamp now) { return mission.resumeFrom(checkpointPath(), now); }
 
 Result<std::unique_ptr<Robot>> Robot::create(const RobotSettings& settings,
                                              const RobotOptions& options, Devices devices,

@@ -76,9 +76,9 @@ StopStatus Robot::Impl::stopStatus(Stamp now) const {
   if (const auto arm_state = devices.arm.state(); young(arm_state))
     s.arm_at_rest = (arm_state->qd.array().abs() <= kRest_radps).all();
   if (const auto base_state = devices.base.state(); young(base_state))
-    s.base_at_rest = std::all_of(
-        base_state->wheels.begin(), base_state->wheels.end(),
-        [](const WheelState& w) { return std::abs(w.drive_radps) <= kRest_radps * 5; });
+    s.base_at_rest =
+        std::all_of(base_state->wheels.begin(), base_state->wheels.end(),
+                    [](const WheelState& w) { return std::abs(w.drive_radps) <= kRest_radps * 5; });
   if (const auto pump_state = devices.pumps.state(); young(pump_state))
     s.pumps_at_rest = std::all_of(pump_state->current_a.begin(), pump_state->current_a.end(),
                                   [](double a) { return a < kPumpRest_a; });

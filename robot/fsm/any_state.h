@@ -43,9 +43,9 @@ class StateHost {
 
 /// A state as the machine sees it. Write states by deriving from State (state.h), never from this.
 ///
-/// Call order: arrive + enter, then watch + execute at each step, then leave. No method may block: the
-/// watchdog names the state and method that does. A state object lives from its transition until it
-/// is left and is never reused.
+/// Call order: arrive + enter, then watch + execute at each step, then leave. No method may block:
+/// the watchdog names the state and method that does. A state object lives from its transition
+/// until it is left and is never reused.
 class AnyState {
  public:
   virtual ~AnyState() = default;
@@ -54,8 +54,8 @@ class AnyState {
   AnyState& operator=(const AnyState&) = delete;
 
   [[nodiscard]] virtual std::string_view name() const = 0;  ///< static storage
-  /// Once for each transition that leads here, before enter(), and not after a pause or a restart of
-  /// the program: what counts visits counts here.
+  /// Once for each transition that leads here, before enter(), and not after a pause or a restart
+  /// of the program: what counts visits counts here.
   virtual void arrive() {}
   virtual void enter() {}
   /// Checks common to a family of states, before execute(); a transition from here skips execute().

@@ -33,18 +33,18 @@ class Machine {
   /// Watchdog, from any thread: "AimHose::execute has not returned for 1.2 s", or empty.
   [[nodiscard]] virtual std::string blocked() const = 0;
 
-  /// Enters the start state, under a new mission UUID unless `mission_uuid` is empty. Nothing happens
-  /// if the mission runs already.
+  /// Enters the start state, under a new mission UUID unless `mission_uuid` is empty. Nothing
+  /// happens if the mission runs already.
   virtual void start(const std::string& mission_uuid, Stamp now) = 0;
   /// Polls the current state once, at 50 Hz; at most one transition a step. Nothing while paused or
   /// ended.
   virtual void step(Stamp now) = 0;
-  /// Holds the machine, whether it runs or not: what is started, forced or restored while it is held
-  /// waits at the threshold of its state and moves nothing. The state's pause() hook brings the
-  /// robot to rest; the time in the state stands still.
+  /// Holds the machine, whether it runs or not: what is started, forced or restored while it is
+  /// held waits at the threshold of its state and moves nothing. The state's pause() hook brings
+  /// the robot to rest; the time in the state stands still.
   virtual void pause(std::string why, Stamp now) = 0;
-  /// Lets go: a state at whose threshold the machine waits is entered now, else the state's resume()
-  /// hook runs.
+  /// Lets go: a state at whose threshold the machine waits is entered now, else the state's
+  /// resume() hook runs.
   virtual void resume(Stamp now) = 0;
   [[nodiscard]] virtual bool held() const = 0;
   [[nodiscard]] virtual bool running() const = 0;  ///< begun, and in no terminal state

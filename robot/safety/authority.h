@@ -77,7 +77,7 @@ class Authority {
   CommandGate gate_;
   DeadMan dead_man_;
   SafetyEpoch epoch_;
-  std::uint64_t stop_seen_ = 0;  ///< generation
+  std::uint64_t stop_seen_ = 0;                ///< generation
   std::map<std::string, Stamp> last_refusal_;  ///< of setpoints, by client, kind and code; bounded
 };
 

@@ -17,7 +17,7 @@ struct GateSituation {
   std::string stop_source;
   bool protective_stop = false;
   MissionPhase phase = MissionPhase::Idle;
-  std::string position_lost;  ///< why nobody knows where the robot is; empty: it is known
+  std::string position_lost;     ///< why nobody knows where the robot is; empty: it is known
   bool ready = true;             ///< preflight holds
   std::string not_ready_reason;  ///< the first failing check, in words
   bool base_moving = false;      ///< measured

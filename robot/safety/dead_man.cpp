@@ -47,10 +47,9 @@ void DeadMan::Config::visit(ConfigArchive& a) {
 
 DeadMan::Client& DeadMan::client(const std::string& id) {
   if (!clients_.contains(id) && clients_.size() >= kMaxClients)
-    clients_.erase(std::min_element(clients_.begin(), clients_.end(),
-                                    [](const auto& a, const auto& b) {
-                                      return a.second.touched < b.second.touched;
-                                    }));
+    clients_.erase(std::min_element(
+        clients_.begin(), clients_.end(),
+        [](const auto& a, const auto& b) { return a.second.touched < b.second.touched; }));
   Client& found = clients_[id];
   found.touched = ++touches_;
   return found;
@@ -79,8 +78,7 @@ void DeadMan::feed(const Command& command, Stamp when) {
   Client& sender = client(command.client_id);
   sender.newest = std::max(sender.newest, command.press);
   Hold& hold = holds_[static_cast<std::size_t>(*kind)];
-  const bool same =
-      hold.last && hold.client == command.client_id && hold.press == command.press;
+  const bool same = hold.last && hold.client == command.client_id && hold.press == command.press;
   if (hold.last && !same) end(*kind);
   hold.last = same ? std::max(*hold.last, when) : when;
   hold.client = command.client_id;

@@ -21,11 +21,11 @@ inline constexpr std::size_t kHoldKinds = 4;
 /// A setpoint that asks for nothing: the zero of a release edge, an empty macro name, ReleaseAll.
 [[nodiscard]] bool isRelease(const CommandBody& body);
 
-/// Follows the hold-to-run setpoints of each kind: 250 ms after the last one, an explicit release or
-/// releaseAll() the kind counts as released, whatever happens to the sender. A hold belongs to one
-/// press of a control (Command::press): once it has ended the same press, and every earlier one of
-/// that client, moves nothing any more, so that only a new deliberate act does (IEC 62745). Confined
-/// to the mission thread.
+/// Follows the hold-to-run setpoints of each kind: 250 ms after the last one, an explicit release
+/// or releaseAll() the kind counts as released, whatever happens to the sender. A hold belongs to
+/// one press of a control (Command::press): once it has ended the same press, and every earlier one
+/// of that client, moves nothing any more, so that only a new deliberate act does (IEC 62745).
+/// Confined to the mission thread.
 class DeadMan {
  public:
   struct Config {
@@ -34,8 +34,8 @@ class DeadMan {
   };
   explicit DeadMan(Config config) : config_(config) {}
 
-  /// Ends what was heard of too long ago. To be called before a batch of commands is looked at: what
-  /// the robot did not see in time is over, even if it waited in a queue.
+  /// Ends what was heard of too long ago. To be called before a batch of commands is looked at:
+  /// what the robot did not see in time is over, even if it waited in a queue.
   void expire(Stamp now);
   /// Does the press of this setpoint still count? A release always does.
   [[nodiscard]] bool mayFeed(const Command& command) const;
@@ -61,7 +61,7 @@ class DeadMan {
     bool reported = true;  ///< its release edge has been taken
   };
   struct Client {
-    std::uint64_t newest = 0;                    ///< press heard of
+    std::uint64_t newest = 0;                      ///< press heard of
     std::array<std::uint64_t, kHoldKinds> over{};  ///< newest press of each kind that has ended
     std::uint64_t touched = 0;
   };

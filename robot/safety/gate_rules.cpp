@@ -36,9 +36,9 @@ struct SituationRule {
       return refuse("wrong_mode", "the mission rests in Teleop; leave it, then resume");
     if (now.phase != MissionPhase::Held) return refuse("not_paused", "the mission is not paused");
     if (!now.position_lost.empty())
-      return refuse("position_lost",
-                    now.position_lost +
-                        "; set the robot's pose on the map, drive by hand or call a reset");
+      return refuse(
+          "position_lost",
+          now.position_lost + "; set the robot's pose on the map, drive by hand or call a reset");
     return {};
   }
   GateDecision operator()(const ChangeState&) const {

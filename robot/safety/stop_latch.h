@@ -16,8 +16,8 @@ namespace kiln {
 /// greater hazard.
 ///
 /// Every STOP has a generation, also one that finds the latch set. It is cleared by naming the
-/// newest one, so that a STOP which was acknowledged cannot be erased by a clear that was on its way
-/// when it came. Thread-safe.
+/// newest one, so that a STOP which was acknowledged cannot be erased by a clear that was on its
+/// way when it came. Thread-safe.
 class StopLatch {
  public:
   /// @return the generation of this STOP, from 1.

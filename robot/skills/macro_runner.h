@@ -32,9 +32,9 @@ struct MacroRunnerConfig {
 /// Runs macros while the operator holds them. Letting go is a stop: the arm decelerates and holds,
 /// the pumps are off; so is cancel(), a failed step and a change of the safety epoch between steps.
 /// Holding the same macro again goes on with the step that was interrupted, unless a restart is
-/// asked for. A macro that has ended, or whose start was refused, is over for this press: its caller
-/// ends the hold when running() turns false (Authority::endHold).
-/// Confined to the mission thread.
+/// asked for. A macro that has ended, or whose start was refused, is over for this press: its
+/// caller ends the hold when running() turns false (Authority::endHold). Confined to the mission
+/// thread.
 class MacroRunner {
  public:
   struct Parts {

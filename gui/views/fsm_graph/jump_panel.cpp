@@ -85,13 +85,16 @@ void JumpPanel::refreshMission() {
   start_->setVisible(!running);
   pause_->setVisible(running);
   start_->setEnabled(may && models_.status.word() == StatusWord::Ready);
-  pause_->setEnabled(may);
+  const bool teleop = models_.status.status() && models_.status.status()->mode == Mode::Teleop;
+  pause_->setEnabled(may && !(paused && teleop));
   arm_->setEnabled(may);
   pause_->setText(paused ? tr("Resume mission") : tr("Pause"));
-  pause_->setSubtext(paused ? tr("goes on from here") : tr("into a safe pose"));
+  pause_->setSubtext(paused ? tr("goes on from here") : tr("rests where it stands"));
   pause_->setKind(paused ? ActKind::Primary : ActKind::Normal);
   start_->setToolTip(may ? tr("The robot begins to drive.") : why);
-  pause_->setToolTip(why);
+  pause_->setToolTip(may && paused && teleop
+                         ? tr("the mission rests in Teleop: go back to autonomy, then resume it")
+                         : why);
   arm_->setToolTip(may ? tr("Choose the next state yourself.") : why);
 }
 
@@ -106,8 +109,9 @@ void JumpPanel::refresh() {
   cancel_->setSubtext(asking ? tr("Esc · %1 s").arg(std::ceil(jump_.leftS()), 0, 'f', 0)
                              : tr("Esc"));
   card_->set(picked ? tr("Leave <b>%1</b>, enter <b>%2</b><br>%3")
-                          .arg(models_.fsm.label(jump_.from()), models_.fsm.label(jump_.target()),
-                               jump_.consequence())
+                          .arg(models_.fsm.label(jump_.from()).toHtmlEscaped(),
+                               models_.fsm.label(jump_.target()).toHtmlEscaped(),
+                               jump_.consequence().toHtmlEscaped())
                     : QString{},
              BannerKind::Forced);
   const QString text =

@@ -31,7 +31,7 @@ void MacroRow::setStatus(const MacroStatus& status) {
   const bool mine = status.running == macro_.name;
   progress_ = mine ? std::clamp(status.progress, 0.0, 1.0) : 0.0;
   step_ = mine ? tr("step %1 of %2 · %3")
-                     .arg(status.step + 1)
+                     .arg(status.step)
                      .arg(status.steps)
                      .arg(QString::fromStdString(status.step_text))
                : QString();

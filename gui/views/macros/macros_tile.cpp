@@ -136,7 +136,7 @@ void MacrosTile::rebuildRows() {
   for (const MacroInfo& macro : models_.macros.macros()) {
     auto* row = new MacroRow(ui_, macro);
     connect(row, &HoldButton::engaged, this, [this, row] {
-      if (!hold_.hold(HoldKind::Macro, HoldMacro{row->macro().name, true})) row->cancel();
+      if (!hold_.hold(HoldKind::Macro, HoldMacro{row->macro().name, false})) row->cancel();
     });
     connect(row, &HoldButton::disengaged, this, [this] { hold_.release(HoldKind::Macro); });
     list_->addWidget(row);

@@ -113,9 +113,9 @@ void StateCard::refreshNotice() {
   bool good = false;
   if (status && models_.status.word() == StatusWord::Stopped) {
     text = tr("<b>Stopped</b>: %1. %2")
-               .arg(QString::fromStdString(status->stop.source), status->stop.standstill_proven
-                                                                     ? tr("Standstill is proven.")
-                                                                     : tr("Coming to rest …"));
+               .arg(QString::fromStdString(status->stop.source).toHtmlEscaped(),
+                    status->stop.standstill_proven ? tr("Standstill is proven.")
+                                                   : tr("Coming to rest …"));
     fault = true;
   } else if (status && needsRelease(status->arm.safety)) {
     text = tr("<b>Protective stop of the arm.</b> Look at the arm, then release it.");
@@ -124,7 +124,8 @@ void StateCard::refreshNotice() {
     good = fsm->success;
     text = good ? tr("✓ <b>Mission succeeded.</b>") : tr("<b>Mission ended without success.</b>");
   } else if (fsm && !fsm->blocked.empty()) {
-    text = tr("<b>Mission blocked</b>: %1").arg(QString::fromStdString(fsm->blocked));
+    text =
+        tr("<b>Mission blocked</b>: %1").arg(QString::fromStdString(fsm->blocked).toHtmlEscaped());
   } else if (fsm && fsm->paused && status && status->word == StatusWord::Paused) {
     QString why = QString::fromStdString(status->reason).toHtmlEscaped();
     if (!why.isEmpty()) why[0] = why[0].toUpper();

@@ -12,6 +12,10 @@ QString ageOrNone(double age_s) {
 HoldToRun::HoldToRun(StationModels& models, Config config, QObject* parent)
     : QObject(parent), models_(models), config_(config) {
   connect(&renew_, &QTimer::timeout, this, &HoldToRun::renew);
+  connect(&models_.link, &Link::ack, this, [this](const CommandAck& ack) {
+    if (ack.code == "press_over" && holding())
+      releaseAll(tr("the robot has ended this hold: let go and press again"));
+  });
 }
 
 HoldToRun::~HoldToRun() {
@@ -33,8 +37,7 @@ QString HoldToRun::lock(HoldKind kind) const {
   if (kind == HoldKind::Macro) {
     if (!models_.mayCommand(&why)) return why;
     const Mode mode = models_.status.status()->mode;
-    return mode == Mode::Teleop || mode == Mode::Supervised ? QString()
-                                                            : tr("needs Supervised or Teleop mode");
+    return mode == Mode::Teleop ? QString() : tr("needs Teleop mode");
   }
   if (!models_.mayJog(&why)) return why;
   if (kind == HoldKind::Pump) return {};

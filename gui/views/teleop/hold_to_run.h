@@ -16,9 +16,9 @@ enum class HoldKind { Base, Arm, Pump, Macro };
 /// (sticks, keys, pump, macros), checks before and during each that it is allowed, and lets go of
 /// everything at once when it is not. One per station, shared by the views. GUI thread only.
 ///
-/// A hold belongs to one press of its control: what ends it here or on the robot ends it for good, and
-/// only a new press moves something again. A hold is renewed from the GUI thread at 25 Hz, so that a GUI that hangs goes silent and the
-/// robot's dead-man ends it.
+/// A hold belongs to one press of its control: what ends it here or on the robot ends it for good,
+/// and only a new press moves something again. A hold is renewed from the GUI thread at 25 Hz, so
+/// that a GUI that hangs goes silent and the robot's dead-man ends it.
 class HoldToRun : public QObject {
   Q_OBJECT
  public:

@@ -94,7 +94,7 @@ void TeleopTile::enterTeleop() {
 
 void TeleopTile::returnToAutonomy() {
   hold_.releaseAll({});
-  models_.commands.send(SetMode{before_}, tr("return to autonomy"));
+  models_.commands.send(SetMode{Mode::Autonomous}, tr("return to autonomy"));
 }
 
 void TeleopTile::sendSpeed() {
@@ -105,8 +105,6 @@ void TeleopTile::sendSpeed() {
 void TeleopTile::refreshMode() {
   const RobotStatus* status = models_.status.status();
   const bool teleop = status && status->mode == Mode::Teleop;
-  if (status && (status->mode == Mode::Autonomous || status->mode == Mode::Supervised))
-    before_ = status->mode;
   const bool may = models_.mayCommand();
   enter_->setVisible(!teleop);
   leave_->setVisible(teleop);

@@ -39,7 +39,6 @@ class TeleopTile : public Tile {
   QLabel *state_, *speed_caption_, *speed_text_;
   QSlider* speed_;
   QTimer speed_timer_;
-  Mode before_ = Mode::Supervised;  ///< the mode to return to
   QString trip_;                    ///< why the last hold ended by force
   Stamp tripped_at_;
 };

@@ -16,6 +16,28 @@ FsmCheckpoint fsmFrom(const json& j) {
           j.at("resume_state").get<std::string>()};
 }
 
+json holdsToJson(const std::vector<MissionHold>& holds) {
+  json out = json::array();
+  for (const MissionHold& hold : holds)
+    out.push_back({{"reason", static_cast<int>(hold.reason)}, {"text", hold.text}});
+  return out;
+}
+
+/// A file of before has no such list: its mission ran.
+Result<std::vector<MissionHold>> holdsFrom(const json& rows, const std::string& name) {
+  std::vector<MissionHold> out;
+  for (const json& row : rows) {
+    const int reason = row.at("reason").get<int>();
+    if (reason < 0 || reason > static_cast<int>(HoldReason::Restored))
+      return makeError(ErrorCode::InvalidInput,
+                       "{}: the checkpoint is damaged: hold reason {} is unknown; start without "
+                       "--resume",
+                       name, reason);
+    out.push_back({static_cast<HoldReason>(reason), row.at("text").get<std::string>()});
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string encodeCheckpoint(const MissionCheckpoint& checkpoint) {
@@ -29,6 +51,7 @@ std::string encodeCheckpoint(const MissionCheckpoint& checkpoint) {
                       {"step", fsm.step},
                       {"state", fsm.state},
                       {"resume_state", fsm.resume_state}}},
+                    {"holds", holdsToJson(checkpoint.holds)},
                     {"world", worldToJson(checkpoint.world)}};
   return out.dump(1) + "\n";
 }
@@ -53,6 +76,9 @@ Result<MissionCheckpoint> decodeCheckpoint(const std::string& text, const std::s
     if (!world)
       return tl::make_unexpected(Error{world.error().code, name + ": " + world.error().message});
     out.world = std::move(*world);
+    auto holds = holdsFrom(j.value("holds", json::array()), name);
+    if (!holds) return tl::make_unexpected(holds.error());
+    out.holds = std::move(*holds);
   } catch (const json::exception& e) {
     return makeError(ErrorCode::InvalidInput,
                      "{}: the checkpoint is damaged: {}; start without --resume", name, e.what());

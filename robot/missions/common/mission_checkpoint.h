@@ -1,8 +1,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "common/core/error.h"
+#include "common/model/status.h"
 #include "robot/fsm/machine.h"
 #include "robot/world_model/world_state.h"
 
@@ -15,6 +17,8 @@ struct MissionCheckpoint {
   Stamp stamp;
   FsmCheckpoint fsm;
   WorldState world;
+  /// Why the mission stood still; empty: it ran, and --resume may go on by itself.
+  std::vector<MissionHold> holds{};
 };
 
 [[nodiscard]] std::string encodeCheckpoint(const MissionCheckpoint& checkpoint);

@@ -4,17 +4,43 @@
 
 #include "common/core/check.h"
 #include "common/core/log.h"
+#include "robot/safety/gate_rules.h"
 
 namespace kiln {
 
 MissionHost::MissionHost(Machine& machine, StopLatch& stop, std::function<void(Stamp)> begin)
     : machine_(machine), stop_(stop), begin_(std::move(begin)) {}
 
-void MissionHost::waitFor(Wait wish, Stamp now) {
-  wait_ = wish;
-  if (wish == Wait::Resume)
-    hold(HoldReason::Restored, "restored from its checkpoint: waits for sensors and position", now);
-  wait_ = wish;
+void MissionHost::goOnWhenAllowed(GateSituation situation, Stamp now) {
+  if (wait_ == Wait::None) return;
+  GateDecision decision = gate::checkSituation(StartMission{}, situation);
+  // A restored mission is as good as held; what resumes it must find the robot ready as well.
+  situation.phase = MissionPhase::Held;
+  if (wait_ == Wait::Resume && decision.accepted)
+    decision = gate::checkSituation(Resume{}, situation);
+  if (!decision.accepted) {
+    if (decision.code != "not_ready" && decision.code != "position_lost")
+      hold(HoldReason::OperatorPause, decision.reason, now);
+  } else if (wait_ == Wait::Start) {
+    start(now);
+  } else {
+    resume(now);
+    logger("mission")->warn("mission resumed from its checkpoint");
+  }
+}
+
+void MissionHost::restored(const std::vector<MissionHold>& before, Stamp now) {
+  if (!machine_.running()) return machine_.resume(now);
+  hold(HoldReason::Restored, "restored from its checkpoint", now);
+  if (before.empty()) wait_ = Wait::Resume;
+  for (const MissionHold& was : before) {
+    if (was.reason == HoldReason::Stop)
+      (void)stop_.set(was.text + ", before the restart", now);
+    else if (was.reason == HoldReason::Teleop)
+      hold(HoldReason::OperatorPause, was.text + ", before the restart", now);
+    else
+      hold(was.reason, was.text, now);
+  }
 }
 
 void MissionHost::start(Stamp now) {
@@ -37,7 +63,7 @@ void MissionHost::resume(Stamp now) {
 }
 
 void MissionHost::hold(HoldReason reason, const std::string& text, Stamp now) {
-  if (wait_ != Wait::None && reason != HoldReason::Restored) endWaiting(text);
+  if (wait_ != Wait::None) endWaiting(text);
   holds_.insert_or_assign(reason, text);
   machine_.pause(text, now);
 }

@@ -7,12 +7,13 @@
 
 #include "common/model/status.h"
 #include "robot/fsm/machine.h"
+#include "robot/safety/command_gate.h"
 #include "robot/safety/stop_latch.h"
 
 namespace kiln {
 
-/// The one owner of the seam between mode, STOP and mission: the only way in which a mission starts,
-/// pauses, goes on, is forced or restored.
+/// The one owner of the seam between mode, STOP and mission: the only way in which a mission
+/// starts, pauses, goes on, is forced or restored.
 ///
 ///   Idle ---start---> Running ---terminal state---> Ended ---start---> Running
 ///   Idle -waitFor-> Waiting -start/resume-> Running;  a reason to hold ends the waiting
@@ -32,9 +33,16 @@ class MissionHost {
   /// @param begin  starts the mission afresh: its clock, its state, its machine.
   MissionHost(Machine& machine, StopLatch& stop, std::function<void(Stamp)> begin);
 
-  /// Goes on by itself once the gate lets `wish` through (--start, --resume). For Resume the machine
-  /// stands restored.
-  void waitFor(Wait wish, Stamp now);
+  /// Starts by itself once the gate lets it (--start).
+  void waitForStart() { wait_ = Wait::Start; }
+  /// At each tick: what was waited for passes the same gate as an operator's command. Not ready
+  /// yet: waits on; any other refusal ends the waiting.
+  void goOnWhenAllowed(GateSituation situation, Stamp now);
+  /// The machine stands restored (Machine::restore). What ran goes on by itself as --resume asks
+  /// for; what was held waits for an operator, a STOP is latched again, and what had ended has
+  /// ended.
+  /// @param before  what held it when the program ended.
+  void restored(const std::vector<MissionHold>& before, Stamp now);
   /// @pre no STOP, no Teleop, no mission under way.
   void start(Stamp now);
   /// @pre no STOP, no Teleop.

@@ -18,11 +18,16 @@ namespace {
 
 /// States in which the arm is, or will be at the next step, near the place.
 bool worksAtPlace(const std::string& state) {
-  for (const char* working :
-       {"ArmSearch", "HeatFound", "AimHose", "LostTarget", "StartPump", "SpraySteady",
-        "SprayPattern", "StopPump", "PumpFault", "ArmBlocked"})
+  for (const char* working : {"ArmSearch", "HeatFound", "AimHose", "LostTarget", "StartPump",
+                              "SpraySteady", "SprayPattern", "StopPump", "PumpFault", "ArmBlocked"})
     if (state == working) return true;
   return false;
+}
+
+bool sameHolds(const std::vector<MissionHold>& a, const std::vector<MissionHold>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) {
+    return x.reason == y.reason && x.text == y.text;
+  });
 }
 
 }  // namespace
@@ -75,7 +80,8 @@ struct FireMission::Impl {
   void save(const FsmCheckpoint& fsm, bool durable) {
     last_save = context.devices.clock.now();
     if (writer)
-      writer->write(encodeCheckpoint({last_save, fsm, context.devices.world.state()}), durable);
+      writer->write(encodeCheckpoint({last_save, fsm, context.devices.world.state(), saved_holds}),
+                    durable);
   }
 
   void placeMoved(std::size_t index) {
@@ -101,6 +107,8 @@ struct FireMission::Impl {
   std::unique_ptr<Machine> machine;
   std::optional<Alarm> storage_alarm;
   Stamp last_save;
+  std::function<std::vector<MissionHold>()> holds = [] { return std::vector<MissionHold>{}; };
+  std::vector<MissionHold> saved_holds, restored_holds;
 };
 
 FireMission::FireMission(const FireDevices& devices, const FireConfig& config,
@@ -133,7 +141,11 @@ void FireMission::tick(Stamp now) {
   Impl& m = *impl_;
   m.observe(now);
   m.machine->step(now);
-  const bool running = m.machine->status(now).running;
+  const bool running = m.machine->running();
+  if (auto holds = m.holds(); running && !sameHolds(holds, m.saved_holds)) {
+    m.saved_holds = std::move(holds);
+    m.save(m.machine->checkpoint(), true);
+  }
   if (running && now - m.last_save >= fromSeconds(m.context.config.checkpoint_period_s))
     m.save(m.machine->checkpoint(), false);
   m.watchStorage(now);
@@ -175,6 +187,7 @@ Result<void> FireMission::resumeFrom(const std::string& path, Stamp now) {
         ErrorCode::InvalidInput,
         "{}: the checkpoint knows {} fire places, the arena has {}; start without --resume", path,
         loaded->world.places.size(), places);
+  m.restored_holds = loaded->holds;
   WorldState before = m.context.world();
   m.context.devices.world.restore(std::move(loaded->world), loaded->stamp, now);
   m.context.devices.pumps.restoreEstimate(m.context.world().sprayed_l_est,
@@ -184,6 +197,12 @@ Result<void> FireMission::resumeFrom(const std::string& path, Stamp now) {
   for (std::size_t i = 0; i < places; ++i) m.placeMoved(i);
   return restored;
 }
+
+void FireMission::keepHolds(std::function<std::vector<MissionHold>()> holds) {
+  impl_->holds = std::move(holds);
+}
+
+const std::vector<MissionHold>& FireMission::restoredHolds() const { return impl_->restored_holds; }
 
 Result<void> FireMission::nudgePlace(const std::string& name, const Pose2& by) {
   Impl& m = *impl_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -45,7 +46,12 @@ class FireMission {
   /// Competition reset: the robot stands at its start again, clock and knowledge go on.
   void onReset(Stamp now);
   /// Goes on from a checkpoint file. Error: says what is wrong with it; nothing is started then.
+  /// The machine stands held at its state; resume() of it goes on.
   [[nodiscard]] Result<void> resumeFrom(const std::string& path, Stamp now);
+  /// Asked at each tick, kept in the checkpoint: why the mission stands still (MissionHost::holds).
+  void keepHolds(std::function<std::vector<MissionHold>()> holds);
+  /// What held the mission when its checkpoint was written; after resumeFrom().
+  [[nodiscard]] const std::vector<MissionHold>& restoredHolds() const;
 
   /// Waits until the newest checkpoint is on the disk; the destructor does so too.
   void flushCheckpoint();

@@ -11,14 +11,11 @@ TEST_F(StationTest, EverythingMayBeHeldInTeleopWithLeaseAndAFreshView) {
 }
 
 TEST_F(StationTest, TheLockNamesItsReason) {
-  status.mode = Mode::Supervised;
+  status.mode = Mode::Autonomous;
   feed();
   EXPECT_TRUE(hold.lock(HoldKind::Base).contains("Teleop"));
   EXPECT_TRUE(hold.lock(HoldKind::Pump).contains("Teleop"));
-  EXPECT_EQ(hold.lock(HoldKind::Macro), QString());  // macros also run in Supervised
-  status.mode = Mode::Autonomous;
-  feed();
-  EXPECT_TRUE(hold.lock(HoldKind::Macro).contains("Supervised or Teleop"));
+  EXPECT_TRUE(hold.lock(HoldKind::Macro).contains("Teleop"));
   status.mode = Mode::Teleop;
   status.lease.holder_client = "someone";
   status.lease.holder_name = "Grace";
@@ -27,6 +24,21 @@ TEST_F(StationTest, TheLockNamesItsReason) {
   status.lease = {};
   feed();
   EXPECT_TRUE(hold.lock(HoldKind::Base).contains("lease"));
+}
+
+TEST_F(StationTest, AHoldBelongsToOnePressAndEndsWhereTheRobotEndedIt) {
+  ASSERT_TRUE(hold.hold(HoldKind::Base, JogBase{{0.3, 0, 0}}));
+  hold.renew();
+  ASSERT_EQ(link.presses.size(), 2u);
+  EXPECT_EQ(link.presses[0], link.presses[1]) << "renewing is not pressing";
+  CommandAck ack;
+  ack.command = "jog_base";
+  ack.outcome = AckOutcome::Refused;
+  ack.code = "press_over";
+  emit link.ack(ack);
+  EXPECT_FALSE(hold.holding());
+  ASSERT_TRUE(hold.hold(HoldKind::Base, JogBase{{0.3, 0, 0}}));
+  EXPECT_GT(link.presses.back(), link.presses.front());
 }
 
 TEST_F(StationTest, ASlowLinkRefusesJogsAndWarnsBefore) {

@@ -33,8 +33,8 @@ struct Desk : Authority::Handler {
   }
   ReceivedCommand command(CommandBody body) {
     ReceivedCommand received;
-    received.command = {"anna",    "Anna",         ++nonce, authority.lease(at(now_s)).epoch,
-                        at(now_s), press, std::move(body)};
+    received.command = {"anna",    "Anna", ++nonce,        authority.lease(at(now_s)).epoch,
+                        at(now_s), press,  std::move(body)};
     received.received = at(now_s);
     return received;
   }

@@ -35,7 +35,7 @@ struct Desk : Fixture {
 TEST(MissionHost, GoesThroughItsPhases) {
   Desk d;
   EXPECT_EQ(d.host.phase(), MissionPhase::Idle);
-  d.host.waitFor(MissionHost::Wait::Start, d.now());
+  d.host.waitForStart();
   EXPECT_EQ(d.host.phase(), MissionPhase::Waiting);
   d.begin();
   EXPECT_EQ(d.host.phase(), MissionPhase::Running);
@@ -57,7 +57,7 @@ TEST(MissionHost, GoesThroughItsPhases) {
 // B1: STOP before the start, cleared before or after the checks pass.
 TEST(MissionHost, AStopEndsTheWaitingForAStart) {
   Desk d;
-  d.host.waitFor(MissionHost::Wait::Start, d.now());
+  d.host.waitForStart();
   d.press();
   EXPECT_EQ(d.host.waiting(), MissionHost::Wait::None);
   EXPECT_EQ(d.host.mode(), Mode::Stopped);
@@ -71,7 +71,7 @@ TEST(MissionHost, AStopEndsTheWaitingForAStart) {
 TEST(MissionHost, AStopEndsTheWaitingForAResume) {
   Desk d;
   ASSERT_TRUE(d.machine.restore({"kettle", "u", 5, "Idle", "Idle"}, d.now()).has_value());
-  d.host.waitFor(MissionHost::Wait::Resume, d.now());
+  d.host.restored({}, d.now());
   EXPECT_EQ(d.host.phase(), MissionPhase::Waiting);
   EXPECT_FALSE(d.moves());
   d.press();
@@ -84,7 +84,7 @@ TEST(MissionHost, AStopEndsTheWaitingForAResume) {
 
 TEST(MissionHost, TeleopEndsTheWaiting) {
   Desk d;
-  d.host.waitFor(MissionHost::Wait::Start, d.now());
+  d.host.waitForStart();
   d.host.enterTeleop("Ann", d.now());
   EXPECT_EQ(d.host.waiting(), MissionHost::Wait::None);
   EXPECT_EQ(d.host.word(true), StatusWord::Teleop);
@@ -141,6 +141,30 @@ TEST(MissionHost, AClearEndsOnlyTheStopThatItNames) {
   ASSERT_TRUE(d.clear());
   EXPECT_EQ(d.host.phase(), MissionPhase::Held);
   EXPECT_FALSE(d.moves());
+}
+
+TEST(MissionHost, WhatHeldItBeforeARestartHoldsItAfter) {
+  Desk d;
+  ASSERT_TRUE(d.machine.restore({"kettle", "u", 5, "Idle", "Idle"}, d.now()).has_value());
+  d.host.restored({{HoldReason::Stop, "STOP by Ann"}, {HoldReason::Teleop, "Ann drives by hand"}},
+                  d.now());
+  EXPECT_TRUE(d.stop.latched());
+  EXPECT_EQ(d.host.waiting(), MissionHost::Wait::None);
+  EXPECT_TRUE(d.host.observeStop(d.now()));
+  EXPECT_FALSE(d.moves());
+  ASSERT_TRUE(d.clear());
+  EXPECT_EQ(d.host.phase(), MissionPhase::Held);
+  EXPECT_FALSE(d.moves());
+  d.host.resume(d.now());
+  EXPECT_TRUE(d.moves());
+}
+
+TEST(MissionHost, WhatHadEndedBeforeARestartHasEnded) {
+  Desk d;
+  ASSERT_TRUE(d.machine.restore({"kettle", "u", 5, "Served", "Served"}, d.now()).has_value());
+  d.host.restored({}, d.now());
+  d.host.check();
+  EXPECT_EQ(d.host.phase(), MissionPhase::Ended);
 }
 
 TEST(MissionHost, NamesEachReason) {
