@@ -118,7 +118,7 @@ std::string record(const std::string& folder) {
     publish(recorder, Topic::Heat, heat);
     publish(recorder, Topic::HeadCamera, head);
     publish(recorder, Topic::OperatorCamera, operator_camera);
-    recorder.tap().command({"client", "Ann", 1, 1, clock.now(), StartMission{}}, clock.now());
+    recorder.tap().command({"client", "Ann", 1, 1, clock.now(), 0, StartMission{}}, clock.now());
     recorder.tap().ack({"client", 1, "start_mission", AckOutcome::Done, "", "", "", 0},
                        clock.now());
     for (int i = 0; i < 20; ++i) recorder.scan(std::make_shared<PointCloud>(points));

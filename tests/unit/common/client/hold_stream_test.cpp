@@ -59,7 +59,7 @@ TEST(HoldStream, ReleasingOneKindLeavesTheOthersHeld) {
   EXPECT_EQ(count<ReleaseAll>(out), 0);
   ASSERT_EQ(count<JogBase>(out), 1);
   EXPECT_EQ(count<HoldPump>(out), 1);
-  for (const CommandBody& body : out) {
+  for (const auto& [body, press] : out) {
     if (const auto* jog = std::get_if<JogBase>(&body)) {
       EXPECT_EQ(jog->twist.vx_mps, 0.0);
     }
