@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "robot/safety/dead_man.h"
 #include "tests/support/fake_devices.h"
 #include "tests/unit/robot/planning/arm_motion/bob.h"
 
@@ -80,13 +81,33 @@ class MacroRunnerTest : public ::testing::Test {
       device.advance();
       pumps.tick(clock.now());
     }
-    if (held) runner->hold("try", restart, clock.now());
-    runner->poll(clock.now(), held);
+    hold.expire(clock.now());
+    if (held) {
+      if (hold.mayFeed(command())) {
+        hold.feed(command(), clock.now());
+        runner->hold("try", restart, clock.now());
+        if (!runner->running()) hold.end(HoldKind::Macro);
+      }
+    } else {
+      hold.releaseAll();
+      ++press;
+    }
+    runner->poll(clock.now(), hold.held(HoldKind::Macro, clock.now()));
+    if (!runner->running()) hold.end(HoldKind::Macro);
+  }
+  [[nodiscard]] Command command() const {
+    Command command;
+    command.client_id = "anna";
+    command.press = press;
+    command.body = HoldMacro{"try", restart};
+    return command;
   }
   void run(double seconds, bool held = true) {
     for (double t = 0.0; t < seconds; t += 0.02) tick(held);
   }
 
+  DeadMan hold{DeadMan::Config{}};  ///< says whether the press still counts
+  std::uint64_t press = 1;
   ManualClock clock{Stamp{std::chrono::seconds(10)}};
   RobotGeometry robot = loadBob();
   ArenaMap arena = loadKitchen();
@@ -172,6 +193,7 @@ TEST_F(MacroRunnerTest, FailedArmAndDryPumpFailTheMacroInWords) {
   EXPECT_THAT(runner->status().last_result, HasSubstr("contact of 70 N"));
 
   arm.fail.clear();
+  ++press;
   make({step("spray", 10.0)});
   device.setDry(0, true);
   run(4.0);
