@@ -138,7 +138,7 @@ TEST(KilnctlProgram, RefusalsNameTheHolderAndAreNoSuccess) {
   LinkedRobot robot(folder.endpoint());
   LinkedOperator anna(operatorConfig(folder.endpoint(), "anna"));
   ASSERT_TRUE(takeControl(robot, anna));
-  Kilnctl ctl(folder.endpoint(), {"mode", "supervised"});
+  Kilnctl ctl(folder.endpoint(), {"mode", "autonomous"});
   ASSERT_TRUE(tickUntil(robot, [&] { return ctl.ended(); }));
   EXPECT_EQ(ctl.exitCode(), 1);
   EXPECT_THAT(ctl.text(), HasSubstr("\"holder\":\"anna\""));

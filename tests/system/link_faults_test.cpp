@@ -59,8 +59,9 @@ TEST(LinkFaults, SlowLinkRefusesJogs) {
     if (!op.session->lease().mine) op.session->send(AcquireLease{});
     return op.session->lease().mine;
   }));
+  const std::uint64_t again = op.session->press();
   ASSERT_TRUE(tickUntil(robot, [&] {
-    op.session->hold(JogBase{{0.3, 0.0, 0.0}}, press);
+    op.session->hold(JogBase{{0.3, 0.0, 0.0}}, again);
     for (const CommandUpdate& update : op.updates()) {
       if (update.command == "jog_base" && update.state == CommandState::Refused) return true;
     }
