@@ -45,8 +45,8 @@ class ThreadExecutor final : public Executor {
   const Clock& clock_;
   int pool_threads_;
   mutable Mutex mutex_;
-  // Two, because a wake-up must not reach one that it is not meant for: a tick that takes the pool's
-  // leaves a job lying.
+  // Two, because a wake-up must not reach one that it is not meant for: a tick that takes the
+  // pool's leaves a job lying.
   std::condition_variable_any wake_tick_;  ///< end of the program; a tick else waits for its time
   std::condition_variable_any wake_pool_;  ///< a job, or the end
   std::deque<Job> jobs_;

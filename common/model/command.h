@@ -97,9 +97,9 @@ struct Command {
   std::uint64_t nonce = 0;        ///< unique per client, for dedup and acks
   std::uint64_t lease_epoch = 0;  ///< the lease the sender believes to hold; 0 = none
   Stamp issued;                   ///< in ROBOT time, converted by the client's clock estimate
-  /// Setpoints: which press of a control holds it; grows with each press of a client. A hold belongs
-  /// to one press: when it has ended, whatever the reason, the same press moves nothing any more.
-  /// 0 is a release, and only a setpoint of zero may carry it.
+  /// Setpoints: which press of a control holds it; grows with each press of a client. A hold
+  /// belongs to one press: when it has ended, whatever the reason, the same press moves nothing any
+  /// more. 0 is a release, and only a setpoint of zero may carry it.
   std::uint64_t press = 0;
   CommandBody body;
 };

@@ -72,17 +72,11 @@ enum class HoldReason : std::uint8_t {
   Teleop,
   Stop,
   PositionLost,
-  ProtectiveStop,
-  OperatorLost,
   Restored  ///< from a checkpoint, and not yet gone on
 };
 struct MissionHold {
   HoldReason reason = HoldReason::OperatorPause;
   std::string text;  ///< "paused by Ann"
-};
-/// Who gives each actuator its setpoints now: "mission", "jog", "macro"; empty = nobody.
-struct ActuatorWriters {
-  std::string base, arm, pumps;
 };
 struct MacroInfo {
   std::string name;  ///< "spray fire 1"
@@ -153,7 +147,6 @@ struct RobotStatus {
   std::vector<std::string> operators;  ///< names of connected stations
   MissionPhase phase = MissionPhase::Idle;
   std::vector<MissionHold> holds;  ///< of a mission that is Held
-  ActuatorWriters writers;
 };
 
 /// Planned path, for the scene.

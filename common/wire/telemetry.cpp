@@ -204,9 +204,6 @@ std::string encode(const RobotStatus& status) {
   out.set_word(static_cast<std::uint32_t>(status.word));
   out.set_reason(validUtf8(status.reason));
   out.set_mission_phase(static_cast<std::uint32_t>(status.phase));
-  out.mutable_writers()->set_base(status.writers.base);
-  out.mutable_writers()->set_arm(status.writers.arm);
-  out.mutable_writers()->set_pumps(status.writers.pumps);
   toProto(status.lease, *out.mutable_lease());
   toProto(status.stop, *out.mutable_stop());
   toProto(status.X_map_base, *out.mutable_x_map_base());
@@ -240,7 +237,6 @@ Result<RobotStatus> decodeRobotStatus(std::string_view bytes) {
   status.robot_name = in->robot_name();
   status.version = in->version();
   status.reason = in->reason();
-  status.writers = {in->writers().base(), in->writers().arm(), in->writers().pumps()};
   status.lease = fromProto(in->lease());
   status.stop = fromProto(in->stop());
   status.X_map_base = fromProto(in->x_map_base());

@@ -1,6 +1,7 @@
 #include "gui/link/fake_link.h"
 
 #include <cmath>
+#include <utility>
 
 #include "gui/link/fake_sensors.h"
 
@@ -67,7 +68,10 @@ std::uint64_t FakeLink::send(const CommandBody& body) {
 std::uint64_t FakeLink::press() { return ++last_press_; }
 
 void FakeLink::releaseSetpoint(const CommandBody& example) {
-  if (held_.erase(example.index()) > 0 && held_.empty()) releaseSetpoints();
+  if (held_.erase(example.index()) == 0) return;
+  const auto others = std::exchange(held_, {});
+  releaseSetpoints();
+  for (const auto& [index, body] : others) startSetpoint(body, last_press_);
 }
 
 void FakeLink::startSetpoint(const CommandBody& body, std::uint64_t) {

@@ -71,7 +71,8 @@ class Link : public QObject {
   virtual std::uint64_t send(const CommandBody& body) = 0;
   /// Hold-to-run: streams this setpoint at 25 Hz. One a kind; a new value replaces the old. Repeat
   /// it at 5 Hz or more while it is held: a caller that hangs or forgets is a release after 200 ms.
-  /// @param press  from press(), taken when the control was pressed; one that is over moves nothing.
+  /// @param press  from press(), taken when the control was pressed; one that is over moves
+  /// nothing.
   virtual void startSetpoint(const CommandBody& body, std::uint64_t press) = 0;
   /// A number for a press that begins now; grows.
   [[nodiscard]] virtual std::uint64_t press() = 0;

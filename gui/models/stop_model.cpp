@@ -29,8 +29,6 @@ void StopModel::press() {
   touch();
 }
 
-void StopModel::clear() {
-  commands_.send(ClearStop{robot_.generation}, tr("clear the stop"));
-}
+void StopModel::clear() { commands_.send(ClearStop{robot_.generation}, tr("clear the stop")); }
 
 }  // namespace kiln::gui

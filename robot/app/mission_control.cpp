@@ -1,6 +1,7 @@
 #include "robot/app/mission_control.h"
 
 #include "common/core/log.h"
+#include "robot/safety/gate_rules.h"
 
 namespace kiln {
 namespace {
@@ -78,9 +79,10 @@ CommandAck MissionControl::executeDiscrete(const Command& command, Stamp now) {
     return changeState(command, *change, now);
   if (const auto* mode = std::get_if<SetMode>(&body)) return setMode(command, mode->mode, now);
   if (const auto* clear = std::get_if<ClearStop>(&body)) {
-    if (!parts_.host.clearStop(clear->generation, now))
-      return answer(command, AckOutcome::Refused, "newer_stop",
-                    "another STOP has come since the one that you saw; look, then clear again");
+    if (!parts_.host.clearStop(clear->generation, now)) {  // it came after the gate had looked
+      const GateDecision newer = gate::refuseNewerStop();
+      return answer(command, AckOutcome::Refused, newer.code, newer.reason);
+    }
     logger("safety")->warn("STOP cleared by {}; nothing moves until told to",
                            command.operator_name);
     return done(command);
@@ -146,12 +148,12 @@ CommandAck MissionControl::changeState(const Command& command, const ChangeState
 }
 
 CommandAck MissionControl::setMode(const Command& command, Mode mode, Stamp now) {
+  if (mode == parts_.host.mode()) return done(command);  // a mission under way is not disturbed
   endHandWork(now);
-  if (mode == Mode::Teleop) {
+  if (mode == Mode::Teleop)
     parts_.host.enterTeleop(command.operator_name, now);
-  } else {
+  else
     parts_.host.leaveTeleop(command.operator_name, now);
-  }
   return done(command);
 }
 

@@ -296,7 +296,6 @@ std::vector<ReceivedCommand> OperatorLink::takeCommands() {
   }
   return commands;
 }
-std::vector<StopEvent> OperatorLink::takeStops() { return impl_->stop_receiver->takeStops(); }
 void OperatorLink::acknowledge(const CommandAck& ack) {
   if (impl_->tap.ack) impl_->tap.ack(ack, impl_->clock.now());
   impl_->reply(ack.client_id, ack);

@@ -62,8 +62,6 @@ class OperatorLink {
   [[nodiscard]] std::vector<ReceivedCommand> takeCommands();
   /// Goes to ack.client_id; counted as dropped when that client is gone.
   void acknowledge(const CommandAck& ack);
-  /// STOPs since the last call, for the lease (a STOP revokes it) and the log.
-  [[nodiscard]] std::vector<StopEvent> takeStops();
   [[nodiscard]] std::vector<OperatorPeer> operators() const;
   void setMissionUuid(const std::string& uuid);
   /// Lets somebody hear everything from now on. Call it before anything is published.

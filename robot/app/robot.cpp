@@ -280,6 +280,7 @@ void Robot::Impl::beginReport(Stamp now) {
   mission_start = now;
   report = MissionReport(options.mission, now);
   ended.store(false);
+  succeeded.store(false);
   const FsmInfo info = mission.machine().info();
   if (link) link->setMissionUuid(info.mission_uuid);
   telemetry.publish(info);

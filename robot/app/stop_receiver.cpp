@@ -9,12 +9,10 @@
 
 namespace kiln {
 namespace {
-constexpr std::size_t kMaxEvents = 64;
 constexpr std::size_t kRemembered = 64;
 }  // namespace
 
-StopReceiver::StopReceiver(const Clock& clock, StopLatch& latch)
-    : clock_(clock), latch_(latch), stops_(kMaxEvents, DropPolicy::Oldest) {}
+StopReceiver::StopReceiver(const Clock& clock, StopLatch& latch) : clock_(clock), latch_(latch) {}
 
 StopReceiver::~StopReceiver() = default;
 
@@ -32,7 +30,6 @@ std::string StopReceiver::onRequest(std::string_view bytes) {
   const auto request = wire::decodeStopRequest(bytes);
   if (!request) {
     latch_.set("unreadable request on the STOP lane", clock_.now());
-    stops_.push({"", "unreadable request", clock_.now()});
     return {};
   }
   auto known = std::find_if(handled_.begin(), handled_.end(), [&](const Handled& h) {
@@ -43,7 +40,6 @@ std::string StopReceiver::onRequest(std::string_view bytes) {
         request->operator_name.empty() ? std::string("an unnamed station") : request->operator_name,
         clock_.now());
     const Stamp latched = clock_.now();
-    stops_.push({request->client_id, request->operator_name, latched});
     handled_.push_back({request->client_id, request->nonce, latched});
     if (handled_.size() > kRemembered) handled_.pop_front();
     known = std::prev(handled_.end());

@@ -4,12 +4,9 @@
 #include <memory>
 #include <string>
 #include <string_view>
-#include <vector>
 
-#include "common/core/bounded_queue.h"
 #include "common/core/clock.h"
 #include "common/core/error.h"
-#include "robot/safety/operator_peer.h"
 #include "robot/safety/stop_latch.h"
 
 namespace kiln {
@@ -20,7 +17,7 @@ class StopServer;
 /// socket and ZeroMQ context of its own. Asks for no lease and no hello. Whatever arrives here
 /// means stop, readable or not.
 ///
-/// takeStops() is thread-safe; the rest is confined to the lane's thread.
+/// Confined to the lane's thread.
 class StopReceiver {
  public:
   /// `clock` and `latch` must outlive the receiver.
@@ -31,9 +28,6 @@ class StopReceiver {
   ~StopReceiver();
   StopReceiver(const StopReceiver&) = delete;
   StopReceiver& operator=(const StopReceiver&) = delete;
-
-  /// STOPs since the last call, for the lease (a STOP revokes it) and the log.
-  [[nodiscard]] std::vector<StopEvent> takeStops() { return stops_.drain(); }
 
  private:
   /// A STOP that was obeyed: its repetitions are answered, not obeyed again after somebody has
@@ -48,7 +42,6 @@ class StopReceiver {
 
   const Clock& clock_;
   StopLatch& latch_;
-  BoundedQueue<StopEvent> stops_;
   std::deque<Handled> handled_;
   std::unique_ptr<StopServer> server_;  // last: its thread calls all of the above
 };

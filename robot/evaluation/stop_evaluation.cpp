@@ -185,7 +185,8 @@ Result<void> readyForHands(ScriptedOperator& person) {
   }
   if (person.view().status->stop.latched) {
     if (auto lease = person.command(AcquireLease{}); !lease) return lease;
-    if (auto cleared = person.command(ClearStop{person.view().status->stop.generation}); !cleared) return cleared;
+    if (auto cleared = person.command(ClearStop{person.view().status->stop.generation}); !cleared)
+      return cleared;
   }
   if (auto over = person.takeOver(); !over) return over;
   return person.command(ReleaseLease{});

@@ -52,9 +52,7 @@ struct SituationRule {
   }
   GateDecision operator()(const ClearStop& b) const {
     if (!now.stop_latched) return refuse("not_stopped", "no STOP is latched");
-    if (b.generation != now.stop_generation)
-      return refuse("newer_stop",
-                    "another STOP has come since the one that you saw; look, then clear again");
+    if (b.generation != now.stop_generation) return refuseNewerStop();
     if (now.anything_held)
       return refuse("still_held", "a jog, pump or macro is still held; let go, then clear");
     return {};
@@ -126,6 +124,11 @@ struct SituationRule {
 
 GateDecision refuse(std::string code, std::string reason) {
   return {false, std::move(code), std::move(reason), 0.0};
+}
+
+GateDecision refuseNewerStop() {
+  return refuse("newer_stop",
+                "another STOP has come since the one that you saw; look, then clear again");
 }
 
 bool needsLease(const CommandBody& body) {

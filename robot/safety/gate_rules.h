@@ -6,6 +6,8 @@
 namespace kiln::gate {
 
 [[nodiscard]] GateDecision refuse(std::string code, std::string reason);
+/// A clear that names another STOP than the newest.
+[[nodiscard]] GateDecision refuseNewerStop();
 /// Does this command need the lease at all?
 [[nodiscard]] bool needsLease(const CommandBody& body);
 /// architecture.md section 6, row by row, then what each command presupposes.

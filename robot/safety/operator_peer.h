@@ -30,11 +30,4 @@ struct OperatorPeer {
   std::optional<double> clock_error_s{};
 };
 
-/// A STOP that arrived on the stop lane; the latch is set already.
-struct StopEvent {
-  std::string client_id;
-  std::string operator_name;
-  Stamp latched;
-};
-
 }  // namespace kiln

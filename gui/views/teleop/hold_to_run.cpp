@@ -69,7 +69,10 @@ bool HoldToRun::hold(HoldKind kind, const CommandBody& body) {
   held.body = body;
   if (first) held.press = models_.link.press();
   models_.link.startSetpoint(body, held.press);
-  if (!renew_.isActive()) renew_.start(config_.renew_ms);
+  if (!renew_.isActive()) {
+    renewed_ = models_.link.clock().now();
+    renew_.start(config_.renew_ms);
+  }
   // A macro starts from its first step once; the renewals only keep it running.
   if (auto* macro = std::get_if<HoldMacro>(&held.body)) macro->restart = false;
   if (first) emit changed();
@@ -100,6 +103,11 @@ void HoldToRun::releaseAll(const QString& why) {
 }
 
 void HoldToRun::renew() {
+  const Stamp now = models_.link.clock().now();
+  // The stream has ended by itself meanwhile, and with it the press.
+  if (toSeconds(now - renewed_) > config_.stall_s)
+    return releaseAll(tr("the window was busy: let go and press again"));
+  renewed_ = now;
   for (const auto& [kind, held] : held_) {
     const QString why = lock(kind);
     if (!why.isEmpty()) return releaseAll(why);

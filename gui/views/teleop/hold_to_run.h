@@ -24,6 +24,7 @@ class HoldToRun : public QObject {
  public:
   struct Config {
     int renew_ms = 40;           ///< 25 Hz
+    double stall_s = 0.2;        ///< a window that renews later than this has let go already
     double fresh_view_s = 0.5;   ///< a cloud or camera picture younger than this, for base and arm
     double rtt_refused_s = 0.5;  ///< jogs are refused above
     double rtt_slow_s = 0.15;    ///< above: the robot halves the speed
@@ -67,6 +68,7 @@ class HoldToRun : public QObject {
   };
   std::map<HoldKind, Hold> held_;
   QTimer renew_;
+  Stamp renewed_;  ///< by the link's clock
 };
 
 }  // namespace kiln::gui

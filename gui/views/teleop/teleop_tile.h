@@ -39,7 +39,7 @@ class TeleopTile : public Tile {
   QLabel *state_, *speed_caption_, *speed_text_;
   QSlider* speed_;
   QTimer speed_timer_;
-  QString trip_;                    ///< why the last hold ended by force
+  QString trip_;  ///< why the last hold ended by force
   Stamp tripped_at_;
 };
 

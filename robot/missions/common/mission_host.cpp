@@ -112,10 +112,6 @@ bool MissionHost::observeStop(Stamp now) {
   return true;
 }
 
-bool MissionHost::mayMove() const {
-  return machine_.running() && !machine_.held() && !stop_.latched() && mode_ != Mode::Teleop;
-}
-
 void MissionHost::check() const {
   KILN_CHECK(machine_.held() == !holds_.empty(), "the machine is held for a reason, and only then");
   KILN_CHECK(mode_ != Mode::Teleop || machine_.held(), "in Teleop the machine stands");

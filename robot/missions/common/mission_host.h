@@ -57,8 +57,6 @@ class MissionHost {
   /// To be called before anything of a tick is decided. @return true once for each STOP, from
   /// wherever it came.
   [[nodiscard]] bool observeStop(Stamp now);
-  /// The machine may write setpoints now.
-  [[nodiscard]] bool mayMove() const;
   /// Checks the invariants: held, stopped or in Teleop the machine stands.
   void check() const;
 

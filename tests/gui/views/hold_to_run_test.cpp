@@ -41,6 +41,16 @@ TEST_F(StationTest, AHoldBelongsToOnePressAndEndsWhereTheRobotEndedIt) {
   EXPECT_GT(link.presses.back(), link.presses.front());
 }
 
+TEST_F(StationTest, AWindowThatWasBusyLetsGoInsteadOfHoldingNothing) {
+  ASSERT_TRUE(hold.hold(HoldKind::Pump, HoldPump{1, 1}));
+  link.time.advanceBy(std::chrono::milliseconds(150));
+  hold.renew();
+  EXPECT_TRUE(hold.holding());
+  link.time.advanceBy(std::chrono::milliseconds(250));  // the stream gives up after 200 ms
+  hold.renew();
+  EXPECT_FALSE(hold.holding());
+}
+
 TEST_F(StationTest, ASlowLinkRefusesJogsAndWarnsBefore) {
   EXPECT_EQ(hold.slowdown(), QString());
   health.rtt_s = 0.2;

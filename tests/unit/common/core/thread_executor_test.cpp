@@ -101,9 +101,8 @@ TEST(ThreadExecutor, RunsEveryJobBesideTicksThatWait) {
   Signal delivered;
   constexpr int kJobs = 1000;
   for (int i = 1; i <= kJobs; ++i) {
-    const Job job{"job", {}, [&](std::stop_token) -> Delivery {
-                    return [&] { delivered.raise(); };
-                  }};
+    const Job job{
+        "job", {}, [&](std::stop_token) -> Delivery { return [&] { delivered.raise(); }; }};
     while (!executor.post(job)) std::this_thread::yield();  // delivered, not yet taken off the list
     ASSERT_TRUE(delivered.waitFor(i)) << "job " << i << " lies";
   }

@@ -86,7 +86,6 @@ TEST(Messages, RobotStatusKeepsEveryField) {
   s.stop = {true, "operator ben", at(2.0), 7, true, false, true, false};
   s.phase = MissionPhase::Held;
   s.holds = {{HoldReason::Stop, "STOP by ben"}, {HoldReason::PositionLost, "position lost"}};
-  s.writers = {"mission", "jog", "macro"};
   s.X_map_base = {1.0, 2.0, 0.5};
   s.twist = {0.1, 0.2, 0.3};
   s.arm.q << 1, 2, 3, 4, 5, 6;

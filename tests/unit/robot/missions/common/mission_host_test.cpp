@@ -121,7 +121,6 @@ TEST(MissionHost, AForcedStateInTeleopWaits) {
   ASSERT_EQ(d.host.force({seen.state, seen.step, "Idle"}, "Ann", d.now()).outcome,
             ChangeStateOutcome::Ok);
   EXPECT_EQ(d.host.phase(), MissionPhase::Held);
-  EXPECT_FALSE(d.host.mayMove());
   EXPECT_FALSE(d.moves());
   d.host.leaveTeleop("Ann", d.now());
   EXPECT_FALSE(d.moves());
