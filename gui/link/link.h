@@ -31,10 +31,8 @@ struct LinkHealth {
   LinkState state = LinkState::Connecting;
   QString endpoint;
   QString reason;                ///< one sentence while not Up, else empty
-  double up_s = 0.0;             ///< one way station -> robot, estimated; < 0 unknown
-  double down_s = 0.0;           ///< one way robot -> station
-  double rtt_s = 0.0;            ///< last heartbeat round trip
-  double loss = 0.0;             ///< fraction of heartbeats lost over the last 10 s
+  double rtt_s = 0.0;            ///< last heartbeat round trip; < 0 unknown
+  double loss = 0.0;             ///< of status messages, smoothed over about the last 50
   double heard_age_s = 0.0;      ///< since we last heard the robot
   double robot_hears_age_s = 0;  ///< since the robot last heard us, as it told us
   std::vector<DropCount> drops;  ///< messages this station dropped, per topic
@@ -71,7 +69,8 @@ class Link : public QObject {
   virtual std::uint64_t send(const CommandBody& body) = 0;
   /// Hold-to-run: streams this setpoint at 25 Hz. One a kind; a new value replaces the old. Repeat
   /// it at 5 Hz or more while it is held: a caller that hangs or forgets is a release after 200 ms.
-  /// @param press  from press(), taken when the control was pressed; one that is over moves nothing.
+  /// @param press  from press(), taken when the control was pressed; one that is over moves
+  /// nothing.
   virtual void startSetpoint(const CommandBody& body, std::uint64_t press) = 0;
   /// A number for a press that begins now; grows.
   [[nodiscard]] virtual std::uint64_t press() = 0;
