@@ -72,6 +72,8 @@ MainWindow::MainWindow(const Ui& ui, StationModels& models, const Options& optio
 
 MainWindow::~MainWindow() {
   if (qApp) qApp->removeEventFilter(this);
+  // The views refer to what this window owns.
+  qDeleteAll(findChildren<QWidget*>(QString(), Qt::FindDirectChildrenOnly));
 }
 
 QBoxLayout* MainWindow::makeMiddle(const Options& options) {

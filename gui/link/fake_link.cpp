@@ -161,8 +161,6 @@ void FakeLink::publishHealth() {
   const double t = robot_.missionElapsedS();
   const double burst = t > 30 && t < 36 ? 0.16 : 0.0;
   h.rtt_s = 0.055 + 0.012 * std::abs(std::sin(t * 2.3)) * std::abs(std::sin(t * 0.7)) + burst;
-  h.down_s = h.rtt_s * 0.44;
-  h.up_s = h.rtt_s * 0.56;
   h.loss = burst > 0 ? 0.03 : 0.0;
   if (h.state == LinkState::Lost)
     h.reason = tr("the robot has not been heard for %1 s").arg(h.heard_age_s, 0, 'f', 1);

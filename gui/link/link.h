@@ -31,10 +31,8 @@ struct LinkHealth {
   LinkState state = LinkState::Connecting;
   QString endpoint;
   QString reason;                ///< one sentence while not Up, else empty
-  double up_s = 0.0;             ///< one way station -> robot, estimated; < 0 unknown
-  double down_s = 0.0;           ///< one way robot -> station
-  double rtt_s = 0.0;            ///< last heartbeat round trip
-  double loss = 0.0;             ///< fraction of heartbeats lost over the last 10 s
+  double rtt_s = 0.0;            ///< last heartbeat round trip; < 0 unknown
+  double loss = 0.0;             ///< of status messages, smoothed over about the last 50
   double heard_age_s = 0.0;      ///< since we last heard the robot
   double robot_hears_age_s = 0;  ///< since the robot last heard us, as it told us
   std::vector<DropCount> drops;  ///< messages this station dropped, per topic

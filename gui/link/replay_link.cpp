@@ -157,7 +157,7 @@ void ReplayLink::Impl::run(std::stop_token stop) {
     LinkHealth health;
     health.state = LinkState::Up;
     health.endpoint = now.file;
-    health.up_s = health.down_s = -1.0;
+    health.rtt_s = -1.0;
     QMetaObject::invokeMethod(
         link, [owner = link, health] { emit owner->health(health); }, Qt::QueuedConnection);
   }

@@ -11,8 +11,7 @@ namespace kiln::gui {
 namespace {
 constexpr std::size_t kAckQueue = 200;
 constexpr double kLossSmoothing = 0.02;  // about the last 50 status messages
-constexpr double kDelaySmoothing = 0.1;
-constexpr int kAckShown_ms = 500;  // until the robot's status tells of the latch itself
+constexpr int kAckShown_ms = 500;        // until the robot's status tells of the latch itself
 
 LinkState stateOf(kiln::LinkState state) {
   switch (state) {
@@ -64,7 +63,7 @@ struct RobotLink::Impl {
   Inbox<StopReport> stop;
   Inbox<HelloReply> hello;
   Batches<CommandAck> acks;
-  double down_s = -1.0, loss = 0.0;
+  double loss = 0.0;
   bool reachable = false;
   TopicInboxes topics;
   std::unique_ptr<OperatorSession> session;  // last: its threads call all of the above
@@ -101,8 +100,6 @@ void RobotLink::Impl::noteArrival(const Arrival& arrival) {
   for (std::uint64_t i = 0; i < std::min<std::uint64_t>(arrival.lost_before, 50); ++i)
     loss += kLossSmoothing * (1 - loss);
   loss -= kLossSmoothing * loss;
-  if (arrival.latency_s <= 0) return;
-  down_s = down_s < 0 ? arrival.latency_s : down_s + kDelaySmoothing * (arrival.latency_s - down_s);
 }
 
 void RobotLink::Impl::deliverHealth(const LinkReport& r) {
@@ -110,9 +107,7 @@ void RobotLink::Impl::deliverHealth(const LinkReport& r) {
   h.state = stateOf(r.state);
   h.endpoint = QString::fromStdString(link.options_.endpoint);
   h.reason = QString::fromStdString(r.reason);
-  h.rtt_s = r.rtt_s;
-  h.down_s = r.clock_known ? std::min(std::max(down_s, 0.0), r.rtt_s) : -1.0;
-  h.up_s = r.clock_known ? r.rtt_s - h.down_s : -1.0;
+  h.rtt_s = r.clock_known ? r.rtt_s : -1.0;
   h.loss = loss;
   h.heard_age_s = std::max(0.0, r.rx_age_s);
   h.robot_hears_age_s = std::max(0.0, r.robot_rx_age_s);

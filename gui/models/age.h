@@ -7,14 +7,14 @@ namespace kiln::gui {
 /// How old data looks: Fresh plain, Amber with a mark, Red hatched out.
 enum class AgeLevel : std::uint8_t { None, Fresh, Amber, Red };
 
-/// When data of one kind looks old; from the operator console's stale rule (status 1.5 s and 3 s).
+/// When data of one kind looks old. The default is for the status.
 struct AgeLimits {
   double amber_s = 1.5;
   double red_s = 3.0;
 };
-/// Video and clouds that a driver steers by: badge from 0.3 s, crossed out at 2 s.
+/// Pictures and clouds that a driver steers by.
 inline constexpr AgeLimits kVideoAge{0.5, 2.0};
-/// Data that changes seldom and is repeated every 2 s (graph, scene, macros).
+/// Data that changes seldom (graph, map, macros, log).
 inline constexpr AgeLimits kSlowAge{5.0, 10.0};
 
 /// @param age_s < 0 means that there was never any data.

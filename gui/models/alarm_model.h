@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QString>
+#include <optional>
 #include <vector>
 
 #include "gui/models/command_tracker.h"
@@ -9,19 +10,27 @@
 namespace kiln::gui {
 
 /// Alarms of the robot and of the station itself. An alarm stays until it is both over and
-/// acknowledged.
+/// acknowledged; a robot's alarm is acknowledged when the robot says so, not when it was asked.
 class AlarmModel : public Model {
   Q_OBJECT
  public:
   struct Entry {
     Alarm alarm;
-    bool own = false;  ///< raised by the station, e.g. "link lost"
+    bool own = false;                ///< raised by the station, e.g. "link lost"
+    std::uint64_t asked = 0;         ///< nonce of an acknowledgement that is under way
+    std::optional<Stamp> granted{};  ///< when it was answered with yes; the status follows
   };
   AlarmModel(Link& link, CommandTracker& commands, QObject* parent = nullptr);
   /// Newest first.
   [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
-  /// What the strip shows: the newest unacknowledged of the highest level; nullptr if all is quiet.
+  /// By weight: what is active and unacknowledged, what is active, what is over; in each the higher
+  /// level and the newer one first.
+  [[nodiscard]] std::vector<const Entry*> ranked() const;
+  /// The first of them, for the strip: one that is over never hides an active one. nullptr if all
+  /// is quiet.
   [[nodiscard]] const Entry* top() const;
+  /// What the key acknowledges: the top one, else the next that nobody has; nullptr if none.
+  [[nodiscard]] const Entry* next() const;
   /// The first of the alarms that still stand: with a flood the likely cause. nullptr with fewer
   /// than two.
   [[nodiscard]] const Entry* firstOut() const;
@@ -38,6 +47,7 @@ class AlarmModel : public Model {
  private:
   void take(const Alarm& alarm, bool own);
   void forgetFinished();
+  void onAnswer(const TrackedCommand& command);
   CommandTracker& commands_;
   std::vector<Entry> entries_;
 };

@@ -13,7 +13,9 @@ TrendModel::TrendModel(Link& link, QObject* parent) : Model(link, AgeLimits{}, p
     const auto now = this->link().robotNow();
     if (!now) return;
     add(rtt_, *now,
-        health.state == LinkState::Up || health.state == LinkState::Degraded ? health.rtt_s : NAN);
+        health.rtt_s >= 0 && (health.state == LinkState::Up || health.state == LinkState::Degraded)
+            ? health.rtt_s
+            : NAN);
     touch();
   });
   connect(&link, &Link::heat, this, [this](const std::shared_ptr<const HeatDetections>& heat) {

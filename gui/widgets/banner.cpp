@@ -4,8 +4,8 @@
 
 namespace kiln::gui {
 
-Banner::Banner(const Ui& ui, TextRole role, QWidget* parent)
-    : QLabel(parent), ui_(ui), role_(role) {
+Banner::Banner(const Ui& ui, TextRole role, QWidget* parent) : Label(parent), ui_(ui), role_(role) {
+  setTextFormat(Qt::RichText);
   setWordWrap(true);
   setAlignment(Qt::AlignLeft | Qt::AlignVCenter);
   setVisible(false);
@@ -13,12 +13,12 @@ Banner::Banner(const Ui& ui, TextRole role, QWidget* parent)
   restyle();
 }
 
-void Banner::set(const QString& words, BannerKind kind) {
+void Banner::set(const Markup& words, BannerKind kind) {
   if (kind != kind_) {
     kind_ = kind;
     restyle();
   }
-  if (words != text()) setText(words);
+  if (words.html() != text()) setText(words.html());
   if (isHidden() != words.isEmpty()) setVisible(!words.isEmpty());
 }
 
@@ -62,7 +62,7 @@ void Banner::paintEvent(QPaintEvent* event) {
     painter.fillRect(rect(), ground);
     painter.fillRect(QRect(0, 0, 4, height()), bar);
   }
-  QLabel::paintEvent(event);
+  Label::paintEvent(event);
 }
 
 }  // namespace kiln::gui

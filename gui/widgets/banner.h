@@ -1,7 +1,6 @@
 #pragma once
 
-#include <QLabel>
-
+#include "gui/widgets/text.h"
 #include "gui/widgets/theme.h"
 
 namespace kiln::gui {
@@ -10,12 +9,12 @@ enum class BannerKind { Plain, Good, Caution, Fault, Forced };
 
 /// A few words on a coloured ground with a bar at the left; Plain has neither. Hidden while empty.
 /// Cheap to set again with the same words, so that a view may do it on every change of its model.
-class Banner : public QLabel {
+class Banner : public Label {
   Q_OBJECT
  public:
   explicit Banner(const Ui& ui, TextRole role = TextRole::Body, QWidget* parent = nullptr);
-  /// Rich text; `kind` gives ground, bar and colour.
-  void set(const QString& text, BannerKind kind = BannerKind::Plain);
+  /// `kind` gives ground, bar and colour.
+  void set(const Markup& words, BannerKind kind = BannerKind::Plain);
   /// Secondary text colour, for captions.
   void setDim(bool dim);
   [[nodiscard]] BannerKind kind() const { return kind_; }

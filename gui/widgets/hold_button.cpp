@@ -1,6 +1,5 @@
 #include "gui/widgets/hold_button.h"
 
-#include <QApplication>
 #include <QMouseEvent>
 #include <algorithm>
 
@@ -11,16 +10,16 @@ constexpr int kTick_ms = 33;
 }
 
 HoldButton::HoldButton(const Ui& ui, const QString& title, double hold_s, QWidget* parent)
-    : ActButton(ui, title, parent), hold_s_(hold_s) {
-  connect(this, &QAbstractButton::pressed, this, &HoldButton::begin);
+    : ActButton(ui, title, parent), guard_(*this), hold_s_(hold_s) {
+  // By a key; the mouse is followed here, for QAbstractButton loses a release beside the button
+  // and takes a pointer that comes back for a new press.
+  connect(this, &QAbstractButton::pressed, this, [this] { begin(false); });
   connect(this, &QAbstractButton::released, this, &HoldButton::end);
+  connect(&guard_, &PressGuard::over, this, &HoldButton::cancel);
   connect(&timer_, &QTimer::timeout, this, &HoldButton::tick);
-  qApp->installEventFilter(this);
 }
 
-HoldButton::~HoldButton() {
-  if (qApp) qApp->removeEventFilter(this);
-}
+HoldButton::~HoldButton() { end(); }
 
 double HoldButton::progress() const {
   if (!since_) return 0.0;
@@ -43,41 +42,28 @@ void HoldButton::cancel() {
 
 QSize HoldButton::sizeHint() const { return ActButton::sizeHint() + QSize(8, 0); }
 
-bool HoldButton::event(QEvent* event) {
-  switch (event->type()) {
-    case QEvent::FocusOut:
-    case QEvent::Hide:
-    case QEvent::WindowDeactivate:
-      cancel();
-      break;
-    case QEvent::EnabledChange:
-      if (!isEnabled()) cancel();
-      break;
-    default:
-      break;
-  }
-  return ActButton::event(event);
-}
-
-bool HoldButton::eventFilter(QObject* watched, QEvent* event) {
-  // The desktop may take the keyboard away without this widget losing its focus (screen lock,
-  // another program).
-  if (watched == qApp && event->type() == QEvent::ApplicationStateChange &&
-      QApplication::applicationState() != Qt::ApplicationActive) {
-    cancel();
-  }
-  return ActButton::eventFilter(watched, event);
+void HoldButton::mousePressEvent(QMouseEvent* event) {
+  if (event->button() != Qt::LeftButton) return event->ignore();
+  event->accept();
+  setDown(true);
+  begin(true);
 }
 
 void HoldButton::mouseMoveEvent(QMouseEvent* event) {
-  ActButton::mouseMoveEvent(event);
+  event->accept();
   if (since_ && !rect().contains(event->pos())) cancel();
 }
 
-void HoldButton::begin() {
+void HoldButton::mouseReleaseEvent(QMouseEvent* event) {
+  event->accept();
+  if (event->button() == Qt::LeftButton) cancel();
+}
+
+void HoldButton::begin(bool by_mouse) {
   if (since_) return;
   since_ = ui().clock.now();
   done_ = false;
+  guard_.begin(by_mouse);
   timer_.start(kTick_ms);
   update();
   emit engaged();
@@ -85,6 +71,7 @@ void HoldButton::begin() {
 
 void HoldButton::end() {
   if (!since_) return;
+  guard_.end();
   since_.reset();
   done_ = false;
   timer_.stop();

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "gui/widgets/act_button.h"
+#include "gui/widgets/press_guard.h"
 
 namespace kiln::gui {
 
@@ -11,8 +12,9 @@ namespace kiln::gui {
 ///  - hold to act (hold_s > 0): `completed()` once, after the full hold; released earlier, nothing
 ///  happened;
 ///  - hold to run (hold_s = 0): `engaged()` at the press, `disengaged()` at the release.
-/// Release, focus loss, window deactivation, hiding, disabling or the pointer leaving the button
-/// all end a hold, so that nothing runs on unattended. `engaged`/`disengaged` always come in pairs.
+/// The release ends it wherever it happens, and so does all that PressGuard knows of, and the
+/// pointer leaving the button. What has ended needs a new press: coming back with the button down
+/// is none. `engaged`/`disengaged` always come in pairs.
 class HoldButton : public ActButton {
   Q_OBJECT
  public:
@@ -34,15 +36,16 @@ class HoldButton : public ActButton {
   void completed();
 
  protected:
-  bool event(QEvent* event) override;
-  bool eventFilter(QObject* watched, QEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
   [[nodiscard]] double fill() const override { return hold_s_ > 0 ? progress() : 0.0; }
   [[nodiscard]] bool lit() const override { return isEngaged(); }
 
  private:
-  void begin();
+  void begin(bool by_mouse);
   void end();
+  PressGuard guard_;
   double hold_s_;
   std::optional<Stamp> since_;
   bool done_ = false;  ///< completed, still pressed

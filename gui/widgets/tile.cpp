@@ -2,7 +2,6 @@
 
 #include <QEvent>
 #include <QHBoxLayout>
-#include <QLabel>
 #include <QPainter>
 
 #include "gui/widgets/hatch.h"
@@ -71,8 +70,8 @@ Tile::Tile(const Ui& ui, const QString& title, QWidget* parent)
       ui_(ui),
       layout_(new QVBoxLayout(this)),
       header_(new QHBoxLayout),
-      title_(new QLabel(title, this)),
-      info_(new QLabel(this)),
+      title_(new Label(title, this)),
+      info_(new Label(this)),
       badge_(new AgeBadge(ui, this)),
       overlay_(new Overlay(ui, this)) {
   layout_->setContentsMargins(1, 1, 1, 1);
@@ -177,7 +176,7 @@ void Tile::resizeEvent(QResizeEvent* event) {
 
 void Tile::restyle() {
   const Palette& p = ui_.theme.colors();
-  const auto paint = [](QLabel* label, const QColor& color, const QFont& font) {
+  const auto paint = [](Label* label, const QColor& color, const QFont& font) {
     label->setFont(font);
     QPalette colors = label->palette();
     colors.setColor(QPalette::WindowText, color);

@@ -4,9 +4,8 @@
 #include <QVBoxLayout>
 
 #include "gui/widgets/age_badge.h"
+#include "gui/widgets/text.h"
 #include "gui/widgets/theme.h"
-
-class QLabel;
 
 namespace kiln::gui {
 
@@ -42,8 +41,8 @@ class Tile : public QFrame {
   Ui ui_;
   QVBoxLayout* layout_;
   QHBoxLayout* header_;
-  QLabel* title_;
-  QLabel* info_;
+  Label* title_;
+  Label* info_;
   AgeBadge* badge_;
   QWidget* content_ = nullptr;
   Overlay* overlay_;

@@ -5,6 +5,7 @@
 #include <QPainter>
 
 #include "gui/widgets/fitted_text.h"
+#include "gui/widgets/text.h"
 
 namespace kiln::gui {
 
@@ -40,10 +41,13 @@ AlarmStrip::AlarmStrip(const Ui& ui, StationModels& models, QWidget* parent)
     button->setFixedSize(112, kHeight_px - 6);
     row->addWidget(button);
   }
-  log_->setToolTip(tr("Show or hide the event log (L)"));
+  QSizePolicy kept = acknowledge_->sizePolicy();
+  kept.setRetainSizeWhenHidden(true);
+  acknowledge_->setSizePolicy(kept);
+  setTip(*log_, tr("Show or hide the event log (L)"));
   connect(acknowledge_, &QAbstractButton::clicked, this, [this] {
-    if (const auto* top = models_.alarms.top())
-      models_.alarms.acknowledge(QString::fromStdString(top->alarm.id));
+    if (const auto* next = models_.alarms.next())
+      models_.alarms.acknowledge(QString::fromStdString(next->alarm.id));
   });
   connect(log_, &QAbstractButton::clicked, this, &AlarmStrip::logRequested);
   connect(&models_.alarms, &Model::changed, this, &AlarmStrip::refresh);
@@ -58,6 +62,8 @@ QString AlarmStrip::text() const {
   if (!top->alarm.action.empty())
     text += QStringLiteral(": ") + QString::fromStdString(top->alarm.action);
   if (!top->alarm.active) text += tr(" (over)");
+  if (top->asked != 0) text += tr(" (acknowledging …)");
+  if (top->alarm.active && top->alarm.acknowledged) text += tr(" (acknowledged)");
   return text;
 }
 
@@ -66,7 +72,7 @@ QString AlarmStrip::summary() const {
   const int open = models_.alarms.unacknowledgedCount();
   if (active == 0 && open == 0) return {};
   QString text = tr("%1 active").arg(active);
-  if (open > 1) text += tr(" · %1 to acknowledge").arg(open);
+  if (open > 0) text += tr(" · %1 to acknowledge").arg(open);
   const auto* first = models_.alarms.firstOut();
   if (first && first != models_.alarms.top())
     text += tr(" · first: %1").arg(QString::fromStdString(first->alarm.text));
@@ -74,11 +80,14 @@ QString AlarmStrip::summary() const {
 }
 
 void AlarmStrip::refresh() {
-  acknowledge_->setVisible(models_.alarms.top() != nullptr);
+  const auto* next = models_.alarms.next();
+  const bool other = next && next != models_.alarms.top();
+  acknowledge_->setVisible(next != nullptr);
+  acknowledge_->setText(other ? tr("Ack. one over") : tr("Acknowledge"));
   acknowledge_->setEnabled(!models_.link.readOnly());
-  acknowledge_->setToolTip(models_.link.readOnly() ? tr("a recording cannot be commanded")
-                                                   : QString());
-  setToolTip(text());
+  setTip(*acknowledge_,
+         models_.link.readOnly() ? tr("a recording cannot be commanded") : QString());
+  setTip(*this, text());
   update();
 }
 
@@ -108,12 +117,13 @@ void AlarmStrip::paintEvent(QPaintEvent*) {
   painter.setRenderHint(QPainter::Antialiasing);
   const auto* top = models_.alarms.top();
   const AlarmLevel level = top ? top->alarm.level : AlarmLevel::Advisory;
-  const bool warning = top && level == AlarmLevel::Warning;
-  const bool caution = top && level == AlarmLevel::Caution;
+  const bool loud = top && top->alarm.active;
+  const bool warning = loud && level == AlarmLevel::Warning;
+  const bool caution = loud && level == AlarmLevel::Caution;
   painter.setPen(QPen(warning ? p.fault : caution ? p.caution : p.border, 1));
   painter.setBrush(warning ? p.fault_fill : p.panel);
   painter.drawRoundedRect(QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5), 4, 4);
-  const int right = (top ? acknowledge_ : log_)->x() - 10;
+  const int right = acknowledge_->x() - 10;
   const QFont small = ui_.theme.font(TextRole::Small);
   const QString note = summary();
   const int note_width = std::min(QFontMetrics(small).horizontalAdvance(note) + 4, width() / 3);
@@ -123,9 +133,8 @@ void AlarmStrip::paintEvent(QPaintEvent*) {
                    Qt::AlignVCenter | Qt::AlignRight,
                    QFontMetrics(small).elidedText(note, Qt::ElideRight, note_width));
   if (!top) {
-    painter.drawText(
-        QRect(12, 0, right, height()), Qt::AlignVCenter | Qt::AlignLeft,
-        models_.alarms.activeCount() > 0 ? tr("Every alarm is acknowledged") : tr("No alarms"));
+    painter.drawText(QRect(12, 0, right, height()), Qt::AlignVCenter | Qt::AlignLeft,
+                     tr("No alarms"));
     return;
   }
   const QColor color = warning ? p.fault : caution ? p.caution : p.text;

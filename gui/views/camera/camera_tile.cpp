@@ -9,6 +9,7 @@
 #include "common/geom/frames.h"
 #include "gui/widgets/fitted_text.h"
 #include "gui/widgets/hatch.h"
+#include "gui/widgets/text.h"
 
 namespace kiln::gui {
 namespace {
@@ -55,8 +56,8 @@ QWidget* CameraTile::makeChoice() {
   for (const Camera camera : {Operator, Head}) {
     auto* button = new QToolButton;
     button->setText(camera == Operator ? tr("operator") : tr("head"));
-    button->setToolTip(camera == Operator ? tr("rear top, over the deck")
-                                          : tr("at the end of the arm"));
+    setTip(*button,
+           camera == Operator ? tr("rear top, over the deck") : tr("at the end of the arm"));
     button->setCheckable(true);
     button->setAutoRaise(true);
     button->setFocusPolicy(Qt::NoFocus);

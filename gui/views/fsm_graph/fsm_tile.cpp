@@ -1,6 +1,5 @@
 #include "gui/views/fsm_graph/fsm_tile.h"
 
-#include <QLabel>
 #include <QLineEdit>
 #include <QPainter>
 #include <QVBoxLayout>
@@ -57,14 +56,13 @@ FsmTile::FsmTile(const Ui& ui, StationModels& models, ForcedJump& jump, QWidget*
     : Tile(ui, tr("Mission"), parent),
       models_(models),
       graph_(new GraphView(ui, models, jump)),
-      panel_(new JumpPanel(ui, models, jump)),
+      panel_(new JumpPanel(ui, models, jump, new Legend(ui))),
       search_(new QLineEdit) {
   auto* body = new QWidget;
   auto* column = new QVBoxLayout(body);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(6);
   column->addWidget(graph_, 1);
-  column->addWidget(new Legend(ui));
   column->addWidget(panel_);
   setContent(body);
   search_->setPlaceholderText(tr("find a state"));

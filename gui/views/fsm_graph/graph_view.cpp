@@ -171,32 +171,32 @@ void GraphView::mouseDoubleClickEvent(QMouseEvent* event) {
   if (nodeAt(event->pos()).isEmpty()) fit();
 }
 
-QString GraphView::tipFor(const QString& name) const {
+Markup GraphView::tipFor(const QString& name) const {
   const FsmStateInfo* state = models_.fsm.state(name);
   if (!state) return {};
-  QString tip = QStringLiteral("<b>%1</b> %2")
-                    .arg(models_.fsm.label(name), QString::fromStdString(state->doc));
+  Markup tip = markup(QStringLiteral("<b>%1</b> %2"), models_.fsm.label(name),
+                      QString::fromStdString(state->doc));
   if (state->time_limit_s > 0) {
-    tip += tr("<br>time limit %1 s, then %2")
-               .arg(state->time_limit_s)
-               .arg(models_.fsm.label(QString::fromStdString(state->timeout_target)));
+    tip += markup(tr("<br>time limit %1 s, then %2"), QString::number(state->time_limit_s),
+                  models_.fsm.label(QString::fromStdString(state->timeout_target)));
   }
   const FsmModel::StateRecord record = models_.fsm.record(name);
   if (record.visits > 1)
-    tip += tr("<br>%1 visits, %2 s in all").arg(record.visits).arg(record.total_s, 0, 'f', 1);
+    tip += markup(tr("<br>%1 visits, %2 s in all"), QString::number(record.visits),
+                  QString::number(record.total_s, 'f', 1));
   QString why;
-  if (!jump_.enterable(name, &why)) tip += QStringLiteral("<br>%1").arg(why);
+  if (!jump_.enterable(name, &why)) tip += markup(QStringLiteral("<br>%1"), why);
   return tip;
 }
 
 bool GraphView::event(QEvent* event) {
   if (event->type() != QEvent::ToolTip) return QWidget::event(event);
   const auto* help = static_cast<QHelpEvent*>(event);
-  const QString tip = tipFor(nodeAt(help->pos()));
+  const Markup tip = tipFor(nodeAt(help->pos()));
   if (tip.isEmpty())
     QToolTip::hideText();
   else
-    QToolTip::showText(help->globalPos(), tip, this);
+    showTip(help->globalPos(), tip, *this);
   return true;
 }
 

@@ -6,6 +6,7 @@
 #include "gui/models/forced_jump.h"
 #include "gui/models/station_models.h"
 #include "gui/views/fsm_graph/graph_geometry.h"
+#include "gui/widgets/text.h"
 #include "gui/widgets/theme.h"
 
 namespace kiln::gui {
@@ -43,7 +44,7 @@ class GraphView : public QWidget {
   void arrange();
   void keepInside();
   void showCurrent();
-  [[nodiscard]] QString tipFor(const QString& name) const;
+  [[nodiscard]] Markup tipFor(const QString& name) const;
   Ui ui_;
   StationModels& models_;
   ForcedJump& jump_;

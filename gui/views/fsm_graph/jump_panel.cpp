@@ -4,18 +4,22 @@
 #include <QVBoxLayout>
 #include <cmath>
 
+#include "gui/widgets/text.h"
+
 namespace kiln::gui {
 
 namespace {
-constexpr int kButton_px = 46;
+constexpr int kButton_px = 46, kWords_px = 62;
 constexpr double kHold_s = 1.0;
 }  // namespace
 
-JumpPanel::JumpPanel(const Ui& ui, StationModels& models, ForcedJump& jump, QWidget* parent)
+JumpPanel::JumpPanel(const Ui& ui, StationModels& models, ForcedJump& jump, QWidget* legend,
+                     QWidget* parent)
     : QWidget(parent),
       ui_(ui),
       models_(models),
       jump_(jump),
+      words_(new QStackedWidget(this)),
       rows_(new QStackedWidget(this)),
       start_(new HoldButton(ui, tr("Start mission"), kHold_s)),
       pause_(new ActButton(ui, tr("Pause"))),
@@ -54,8 +58,21 @@ JumpPanel::JumpPanel(const Ui& ui, StationModels& models, ForcedJump& jump, QWid
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(6);
-  column->addWidget(card_);
-  column->addWidget(message_);
+  auto* quiet = new QWidget;
+  auto* quiet_column = new QVBoxLayout(quiet);
+  quiet_column->setContentsMargins(0, 0, 0, 0);
+  quiet_column->setSpacing(2);
+  quiet_column->addWidget(legend);
+  quiet_column->addWidget(message_, 1);
+  quiet_column->addStretch(0);
+  auto* question = new QWidget;
+  auto* question_column = new QVBoxLayout(question);
+  question_column->setContentsMargins(0, 0, 0, 0);
+  question_column->addWidget(card_);
+  words_->addWidget(quiet);
+  words_->addWidget(question);
+  words_->setFixedHeight(kWords_px);  // the graph above stands still
+  column->addWidget(words_);
   column->addWidget(rows_);
 
   connect(start_, &HoldButton::completed, this,
@@ -91,11 +108,11 @@ void JumpPanel::refreshMission() {
   pause_->setText(paused ? tr("Resume mission") : tr("Pause"));
   pause_->setSubtext(paused ? tr("goes on from here") : tr("rests where it stands"));
   pause_->setKind(paused ? ActKind::Primary : ActKind::Normal);
-  start_->setToolTip(may ? tr("The robot begins to drive.") : why);
-  pause_->setToolTip(may && paused && teleop
-                         ? tr("the mission rests in Teleop: go back to autonomy, then resume it")
-                         : why);
-  arm_->setToolTip(may ? tr("Choose the next state yourself.") : why);
+  setTip(*start_, may ? tr("The robot begins to drive.") : why);
+  setTip(*pause_, may && paused && teleop
+                      ? tr("the mission rests in Teleop: go back to autonomy, then resume it")
+                      : why);
+  setTip(*arm_, may ? tr("Choose the next state yourself.") : why);
 }
 
 void JumpPanel::refresh() {
@@ -108,12 +125,12 @@ void JumpPanel::refresh() {
                            : tr("pick a state above"));
   cancel_->setSubtext(asking ? tr("Esc · %1 s").arg(std::ceil(jump_.leftS()), 0, 'f', 0)
                              : tr("Esc"));
-  card_->set(picked ? tr("Leave <b>%1</b>, enter <b>%2</b><br>%3")
-                          .arg(models_.fsm.label(jump_.from()).toHtmlEscaped(),
-                               models_.fsm.label(jump_.target()).toHtmlEscaped(),
-                               jump_.consequence().toHtmlEscaped())
-                    : QString{},
-             BannerKind::Forced);
+  card_->set(
+      picked ? markup(tr("Leave <b>%1</b>, enter <b>%2</b><br>%3"), models_.fsm.label(jump_.from()),
+                      models_.fsm.label(jump_.target()), jump_.consequence())
+             : Markup(),
+      BannerKind::Forced);
+  words_->setCurrentIndex(picked ? 1 : 0);
   const QString text =
       phase == ForcedJump::Phase::Sent ? tr("sent, waiting for the robot …") : jump_.message();
   message_->set(jump_.failed() && !text.isEmpty() ? QStringLiteral("✕ ") + text : text,

@@ -9,13 +9,15 @@
 
 namespace kiln::gui {
 
-/// The two rows under the graph: start / pause / resume, and the forced jump from arming to the
-/// robot's answer. The hold that jumps stands where "Pause" was, never under the button that armed
-/// it.
+/// Under the graph: words, then start / pause / resume, and the forced jump from arming to the
+/// robot's answer. Its height never changes. The hold that jumps stands where "Pause" was, never
+/// under the button that armed it.
 class JumpPanel : public QWidget {
   Q_OBJECT
  public:
-  JumpPanel(const Ui& ui, StationModels& models, ForcedJump& jump, QWidget* parent = nullptr);
+  /// @param legend  stands where the question stands while a jump is asked for. Takes ownership.
+  JumpPanel(const Ui& ui, StationModels& models, ForcedJump& jump, QWidget* legend,
+            QWidget* parent = nullptr);
   [[nodiscard]] HoldButton* armButton() const { return arm_; }
   [[nodiscard]] HoldButton* jumpButton() const { return confirm_; }
   [[nodiscard]] HoldButton* startButton() const { return start_; }
@@ -28,7 +30,7 @@ class JumpPanel : public QWidget {
   Ui ui_;
   StationModels& models_;
   ForcedJump& jump_;
-  QStackedWidget* rows_;
+  QStackedWidget *words_, *rows_;
   HoldButton* start_;
   ActButton* pause_;
   HoldButton* arm_;

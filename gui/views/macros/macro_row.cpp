@@ -6,18 +6,24 @@
 #include <algorithm>
 
 #include "gui/widgets/fitted_text.h"
+#include "gui/widgets/text.h"
 
 namespace kiln::gui {
 namespace {
-constexpr int kHeight_px = 41, kPad_px = 9;
+constexpr int kHeight_px = 41, kPad_px = 9, kRestart_px = 34;
 }
 
 MacroRow::MacroRow(const Ui& ui, MacroInfo macro, QWidget* parent)
     : HoldButton(ui, QString::fromStdString(macro.name), 0.0, parent),
       macro_(std::move(macro)),
+      restart_(new HoldButton(ui, QStringLiteral("↺"), 0.0)),
       hint_(tr("hold to run")) {
   setFocusPolicy(Qt::TabFocus);
-  setToolTip(QString::fromStdString(macro_.doc));
+  setTip(*this, tr("%1\nGoes on with the step in which it was let go.")
+                    .arg(QString::fromStdString(macro_.doc)));
+  restart_->setFocusPolicy(Qt::TabFocus);
+  restart_->setFixedSize(kRestart_px, kHeight_px);
+  setTip(*restart_, tr("hold to run %1 from its first step").arg(text()));
 }
 
 QString MacroRow::summary(const MacroInfo& macro) {
@@ -83,7 +89,7 @@ void MacroRow::paintEvent(QPaintEvent*) {
   const int room = static_cast<int>(text.width());
   painter.setPen(isEnabled() ? p.dim : p.faint);
   paintFitted(painter, text, Qt::AlignLeft | Qt::AlignBottom,
-              fitText(running ? step_ : summary(macro_), {small, smaller}, room, 1));
+              fitText(line(), {small, smaller}, room, 1));
   painter.setPen(isEnabled() ? p.text : p.faint);
   paintFitted(painter, text, Qt::AlignLeft | Qt::AlignTop,
               fitText(QString::fromStdString(macro_.name), {strong, small},

@@ -6,7 +6,8 @@
 namespace kiln::gui {
 
 /// One macro: name, what it takes, and a button that runs it while held. While it runs the bar is
-/// the robot's own progress, not a guess of the station.
+/// the robot's own progress, not a guess of the station. The row goes on where the macro was let go
+/// of; the small key beside it begins anew.
 class MacroRow : public HoldButton {
   Q_OBJECT
  public:
@@ -16,6 +17,10 @@ class MacroRow : public HoldButton {
   void setStatus(const MacroStatus& status);
   /// Text at the right end: "hold to run", "locked".
   void setHint(const QString& hint);
+  /// Runs it from its first step while held. Stands beside the row in the layout of its owner.
+  [[nodiscard]] HoldButton& restart() { return *restart_; }
+  /// The second line: what runs now, else the summary.
+  [[nodiscard]] QString line() const { return step_.isEmpty() ? summary(macro_) : step_; }
   [[nodiscard]] QSize sizeHint() const override;
   /// "18 s · est. 0.9 l · start within 5 cm".
   [[nodiscard]] static QString summary(const MacroInfo& macro);
@@ -25,6 +30,7 @@ class MacroRow : public HoldButton {
 
  private:
   MacroInfo macro_;
+  HoldButton* restart_;
   double progress_ = 0.0;
   QString step_, hint_;
 };

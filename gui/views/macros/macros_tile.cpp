@@ -2,17 +2,17 @@
 
 #include <QButtonGroup>
 #include <QHBoxLayout>
-#include <QLabel>
 #include <QScrollArea>
 #include <QToolButton>
 #include <algorithm>
 
 #include "gui/views/teleop/dead_man.h"
+#include "gui/widgets/text.h"
 
 namespace kiln::gui {
 namespace {
 
-constexpr int kPumpWidth_px = 124, kPumpHeight_px = 120, kListMin_px = 86;
+constexpr int kPumpWidth_px = 124, kPumpHeight_px = 120, kListMin_px = 86, kNoteLines = 2;
 
 bool sameMacros(const std::vector<MacroRow*>& rows, const std::vector<MacroInfo>& macros) {
   return std::equal(rows.begin(), rows.end(), macros.begin(), macros.end(),
@@ -51,8 +51,9 @@ MacrosTile::MacrosTile(const Ui& ui, HoldToRun& hold, QWidget* parent)
   scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   macros->setAutoFillBackground(false);
   scroll->viewport()->setAutoFillBackground(false);
-  note_ = new QLabel;
+  note_ = new Label;
   note_->setWordWrap(true);
+  note_->setAlignment(Qt::AlignTop | Qt::AlignLeft);
   row->addWidget(scroll, 1);
   row->addWidget(makePump());
   column->addLayout(row, 1);
@@ -61,8 +62,7 @@ MacrosTile::MacrosTile(const Ui& ui, HoldToRun& hold, QWidget* parent)
   setContent(content);
   new DeadMan(hold_, *this);
   connect(&hold_, &HoldToRun::tripped, this, [this](const QString&) {
-    pump_->cancel();
-    for (MacroRow* macro : rows_) macro->cancel();
+    letGo();
     refresh();
   });
   connect(&models_.macros, &Model::changed, this, &MacrosTile::refresh);
@@ -70,6 +70,16 @@ MacrosTile::MacrosTile(const Ui& ui, HoldToRun& hold, QWidget* parent)
   connect(&models_, &StationModels::aged, this, &MacrosTile::refresh);
   connect(&ui_.theme, &Theme::changed, this, &MacrosTile::restyle);
   restyle();
+}
+
+MacrosTile::~MacrosTile() { letGo(); }
+
+void MacrosTile::letGo() {
+  pump_->cancel();
+  for (MacroRow* macro : rows_) {
+    macro->cancel();
+    macro->restart().cancel();
+  }
 }
 
 QWidget* MacrosTile::makePump() {
@@ -127,22 +137,31 @@ void MacrosTile::endPump() {
 }
 
 void MacrosTile::rebuildRows() {
-  for (MacroRow* row : rows_) {
-    row->cancel();
-    row->deleteLater();
-  }
+  letGo();
+  for (MacroRow* row : rows_) row->parentWidget()->deleteLater();
   rows_.clear();
   while (QLayoutItem* item = list_->takeAt(0)) delete item;
-  for (const MacroInfo& macro : models_.macros.macros()) {
-    auto* row = new MacroRow(ui_, macro);
-    connect(row, &HoldButton::engaged, this, [this, row] {
-      if (!hold_.hold(HoldKind::Macro, HoldMacro{row->macro().name, false})) row->cancel();
-    });
-    connect(row, &HoldButton::disengaged, this, [this] { hold_.release(HoldKind::Macro); });
-    list_->addWidget(row);
-    rows_.push_back(row);
-  }
+  for (const MacroInfo& macro : models_.macros.macros()) addRow(macro);
   list_->addStretch(1);
+}
+
+void MacrosTile::addRow(const MacroInfo& macro) {
+  auto* line = new QWidget;
+  auto* across = new QHBoxLayout(line);
+  across->setContentsMargins(0, 0, 0, 0);
+  across->setSpacing(3);
+  auto* row = new MacroRow(ui_, macro);
+  across->addWidget(row, 1);
+  across->addWidget(&row->restart());
+  for (HoldButton* key : {static_cast<HoldButton*>(row), &row->restart()}) {
+    const bool restart = key != row;
+    connect(key, &HoldButton::engaged, this, [this, key, restart, name = macro.name] {
+      if (!hold_.hold(HoldKind::Macro, HoldMacro{name, restart})) key->cancel();
+    });
+    connect(key, &HoldButton::disengaged, this, [this] { hold_.release(HoldKind::Macro); });
+  }
+  list_->addWidget(line);
+  rows_.push_back(row);
 }
 
 void MacrosTile::refreshMacros() {
@@ -154,6 +173,7 @@ void MacrosTile::refreshMacros() {
   for (MacroRow* row : rows_) {
     row->setStatus(running);
     row->setEnabled(why.isEmpty());
+    row->restart().setEnabled(why.isEmpty());
     row->setHint(why.isEmpty() ? tr("hold to run") : tr("locked"));
   }
   const QString last = running.running.empty() && !running.last_result.empty()
@@ -162,7 +182,7 @@ void MacrosTile::refreshMacros() {
   note_->setText(rows_.empty()    ? tr("the robot offers no macros")
                  : !why.isEmpty() ? tr("macros: %1").arg(why)
                                   : last);
-  note_->setVisible(!note_->text().isEmpty());
+  setTip(*note_, note_->text());
 }
 
 void MacrosTile::refreshPump() {
@@ -170,10 +190,10 @@ void MacrosTile::refreshPump() {
   const QString why = hold_.lock(HoldKind::Pump);
   pump_->setKind(pump_->isEngaged() ? ActKind::Manual : ActKind::Normal);
   pump_->setEnabled(why.isEmpty());
-  pump_->setToolTip(
-      why.isEmpty()
-          ? tr("sprays while held; the robot cuts the pumps 0.2 s after the last sign of life")
-          : why);
+  setTip(*pump_,
+         why.isEmpty()
+             ? tr("sprays while held; the robot cuts the pumps 0.2 s after the last sign of life")
+             : why);
   if (pump_->isEngaged() && status) {
     pump_->setSubtext(tr("est. %1 l · %2 s")
                           .arg(status->water.sprayed_l_est - sprayed_before_l_, 0, 'f', 2)
@@ -194,6 +214,7 @@ void MacrosTile::refresh() {
 void MacrosTile::restyle() {
   const Palette& p = ui_.theme.colors();
   note_->setFont(ui_.theme.font(TextRole::Small));
+  note_->setFixedHeight(kNoteLines * note_->fontMetrics().lineSpacing());  // what is below stays
   note_->setStyleSheet(QStringLiteral("color: %1").arg(p.dim.name()));
   for (QAbstractButton* button : sides_->buttons()) {
     const bool on = sides_->id(button) == static_cast<int>(which_);

@@ -5,10 +5,10 @@
 #include "gui/views/macros/macro_row.h"
 #include "gui/views/macros/water_gauge.h"
 #include "gui/views/teleop/hold_to_run.h"
+#include "gui/widgets/text.h"
 #include "gui/widgets/tile.h"
 
 class QButtonGroup;
-class QLabel;
 
 namespace kiln::gui {
 
@@ -18,12 +18,16 @@ class MacrosTile : public Tile {
  public:
   /// @param hold  the station's one HoldToRun, shared with the teleop tile; outlives this tile.
   MacrosTile(const Ui& ui, HoldToRun& hold, QWidget* parent = nullptr);
+  ~MacrosTile() override;
   [[nodiscard]] HoldButton& pump() { return *pump_; }
   [[nodiscard]] const std::vector<MacroRow*>& rows() const { return rows_; }
+  [[nodiscard]] QString note() const { return note_->text(); }
 
  private:
   enum class Pumps { Both, Left, Right };
   void rebuildRows();
+  void addRow(const MacroInfo& macro);
+  void letGo();
   void refresh();
   void refreshPump();
   void refreshMacros();
@@ -38,7 +42,7 @@ class MacrosTile : public Tile {
   StationModels& models_;
   QVBoxLayout* list_;
   std::vector<MacroRow*> rows_;
-  QLabel* note_;
+  Label* note_;
   HoldButton* pump_;
   QButtonGroup* sides_;
   WaterGauge* water_;

@@ -5,6 +5,8 @@
 #include <QPainter>
 #include <QStringList>
 
+#include "gui/widgets/text.h"
+
 namespace kiln::gui {
 
 namespace {
@@ -87,8 +89,8 @@ void RecordChip::refresh() {
   setVisible(!models_.link.readOnly());
   button_->setText(on ? tr("Stop rec.") : tr("Record"));
   button_->setEnabled(status && models_.link_state.usable());
-  button_->setToolTip(tr("Records the run on the robot; moves nothing and needs no lease."));
-  setToolTip(text());
+  setTip(*button_, tr("Records the run on the robot; moves nothing and needs no lease."));
+  setTip(*this, text());
   if (width() != sizeHint().width()) setFixedWidth(sizeHint().width());
   update();
 }

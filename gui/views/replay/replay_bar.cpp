@@ -8,6 +8,7 @@
 
 #include "gui/views/replay/time_slider.h"
 #include "gui/widgets/hatch.h"
+#include "gui/widgets/text.h"
 
 namespace kiln::gui {
 
@@ -52,7 +53,7 @@ ReplayBar::ReplayBar(const Ui& ui, ReplayLink& link, QWidget* parent)
 ActButton* ReplayBar::button(const QString& text, const QString& tip, int width) {
   auto* made = new ActButton(ui_, text);
   made->setFixedSize(width, kHeight_px - 14);
-  made->setToolTip(tip);
+  setTip(*made, tip);
   return made;
 }
 
@@ -80,7 +81,8 @@ void ReplayBar::show(const Playback& playback) {
   faster_->setEnabled(playback.speed < kSpeeds.back());
   slider_->set(toSeconds(playback.position - playback.start),
                toSeconds(playback.end - playback.start));
-  setToolTip(playback.file + QLatin1Char('\n') + playback.run +
+  setTip(*this,
+         playback.file + QLatin1Char('\n') + playback.run +
              (playback.problem.isEmpty() ? QString() : QLatin1Char('\n') + playback.problem));
   update();
 }

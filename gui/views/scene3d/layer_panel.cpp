@@ -3,6 +3,8 @@
 #include <QMouseEvent>
 #include <QPainter>
 
+#include "gui/widgets/text.h"
+
 namespace kiln::gui {
 namespace {
 constexpr int kRow_px = 21, kMargin_px = 7, kWidth_px = 172, kDot_px = 8;
@@ -15,7 +17,7 @@ bool looksOld(const LayerState& layer) {
 LayerPanel::LayerPanel(const Ui& ui, QWidget* parent) : QWidget(parent), ui_(ui) {
   setMouseTracking(true);
   setCursor(Qt::PointingHandCursor);
-  setToolTip(tr("show or hide a layer"));
+  setTip(*this, tr("show or hide a layer"));
   resize(sizeHint());
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "gui/widgets/fitted_text.h"
+#include "gui/widgets/text.h"
 
 namespace kiln::gui {
 
@@ -77,7 +78,7 @@ void LocalizationChip::setWidest(int widest_px) {
 }
 
 void LocalizationChip::refresh() {
-  setToolTip(model_.details());
+  setTip(*this, model_.details());
   if (size() != sizeHint()) {
     resize(sizeHint());
     emit resized();

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "gui/models/localization_model.h"
+#include "gui/widgets/text.h"
 
 namespace kiln::gui {
 
@@ -37,9 +38,9 @@ PlacePanel::PlacePanel(const Ui& ui, StationModels& models, PlaceNudge& nudge, Q
   column->setSpacing(6);
   auto* head = new QHBoxLayout;
   name_->setFixedHeight(kStepHeight_px);
-  name_->setToolTip(tr("show the next fire place"));
+  setTip(*name_, tr("show the next fire place"));
   close_->setFixedSize(kStepHeight_px, kStepHeight_px);
-  close_->setToolTip(tr("close"));
+  setTip(*close_, tr("close"));
   head->addWidget(name_, 1);
   head->addWidget(close_);
   column->addLayout(head);
@@ -60,8 +61,8 @@ PlacePanel::PlacePanel(const Ui& ui, StationModels& models, PlaceNudge& nudge, Q
     acts->setColumnStretch(side, 1);
     acts->setColumnMinimumWidth(side, (kWidth_px - 22) / 2);
   }
-  sensed_->setToolTip(tr("wish the configured place where the cloud shows the box"));
-  cancel_->setToolTip(tr("forget the wish"));
+  setTip(*sensed_, tr("wish the configured place where the cloud shows the box"));
+  setTip(*cancel_, tr("forget the wish"));
   move_->setKind(ActKind::Manual);
   move_->setSubtext(tr("hold 1 s"));
   go_on_->setKind(ActKind::Caution);
@@ -91,7 +92,7 @@ ActButton* PlacePanel::step(const QString& text, const QString& tip, double dx, 
                             double dyaw) {
   auto* button = new ActButton(ui_, text);
   button->setFixedHeight(kStepHeight_px);
-  button->setToolTip(tip);
+  setTip(*button, tip);
   connect(button, &QAbstractButton::clicked, this, [=, this] { nudge_.add(dx, dy, dyaw); });
   return button;
 }
@@ -120,17 +121,16 @@ void PlacePanel::refresh() {
   const QString place = nudge_.selected();
   const PlaceCheck* check = nudge_.check(place);
   name_->setText(place.isEmpty() ? tr("no fire place") : place);
-  QString text = check ? QStringLiteral("<b>%1</b>").arg(offsetText(*check))
-                       : tr("The robot has not looked at it yet.");
+  Markup text = check ? markup(QStringLiteral("<b>%1</b>"), offsetText(*check))
+                      : Markup(tr("The robot has not looked at it yet."));
   if (check && !check->reason.empty())
-    text += QStringLiteral("<br>") + QString::fromStdString(check->reason).toHtmlEscaped();
+    text += markup(QStringLiteral("<br>%1"), QString::fromStdString(check->reason));
   if (nudge_.hasWish()) {
     const Pose2& wish = nudge_.wish();
-    text += tr("<br>wish: x %1, y %2, yaw %3")
-                .arg(signedLength(wish.x_m), signedLength(wish.y_m), angleText(wish.yaw_rad));
+    text += markup(tr("<br>wish: x %1, y %2, yaw %3"), signedLength(wish.x_m),
+                   signedLength(wish.y_m), angleText(wish.yaw_rad));
   }
-  if (!nudge_.refusal().isEmpty())
-    text += QStringLiteral("<br>") + nudge_.refusal().toHtmlEscaped();
+  if (!nudge_.refusal().isEmpty()) text += markup(QStringLiteral("<br>%1"), nudge_.refusal());
   const bool caution =
       !nudge_.refusal().isEmpty() || (check && check->verdict == PlaceVerdict::Misplaced);
   words_->set(text, caution ? BannerKind::Caution : BannerKind::Plain);
@@ -155,10 +155,10 @@ void PlacePanel::refreshButtons() {
   sensed_->setEnabled(may && check && check->X_map_sensed.has_value());
   cancel_->setEnabled(nudge_.hasWish());
   move_->setEnabled(may && nudge_.hasWish());
-  move_->setToolTip(may ? tr("The robot then drives and aims by the moved place.") : why);
+  setTip(*move_, may ? tr("The robot then drives and aims by the moved place.") : why);
   go_on_->setEnabled(may && fsm && fsm->running && check &&
                      check->verdict == PlaceVerdict::Misplaced);
-  go_on_->setToolTip(may ? tr("The mission goes on with the place as it is configured.") : why);
+  setTip(*go_on_, may ? tr("The mission goes on with the place as it is configured.") : why);
 }
 
 void PlacePanel::restyle() {

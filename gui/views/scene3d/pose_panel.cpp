@@ -41,7 +41,7 @@ PosePanel::PosePanel(const Ui& ui, PosePlacer& placer, QWidget* parent)
 void PosePanel::refresh() {
   using Phase = PosePlacer::Phase;
   const Pose2& pose = placer_.pose();
-  const QString figures = tr("<b>x %1 m, y %2 m, %3°</b>")
+  const QString figures = tr("x %1 m, y %2 m, %3°")
                               .arg(pose.x_m, 0, 'f', 2)
                               .arg(pose.y_m, 0, 'f', 2)
                               .arg(pose.yaw_rad * 180.0 / M_PI, 0, 'f', 0);
@@ -52,10 +52,10 @@ void PosePanel::refresh() {
       words_->set(tr("Press where the robot stands, drag to where it looks."));
       break;
     case Phase::Placed:
-      words_->set(figures + tr("<br>nothing moves; the next scan corrects it"));
+      words_->set(markup(tr("<b>%1</b><br>nothing moves; the next scan corrects it"), figures));
       break;
     case Phase::Sent:
-      words_->set(figures + tr("<br>sent …"));
+      words_->set(markup(tr("<b>%1</b><br>sent …"), figures));
       break;
     case Phase::Refused:
       words_->set(placer_.reason(), BannerKind::Caution);

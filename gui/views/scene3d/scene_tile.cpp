@@ -10,6 +10,7 @@
 #include "gui/views/scene3d/localization_chip.h"
 #include "gui/views/scene3d/place_panel.h"
 #include "gui/views/scene3d/pose_panel.h"
+#include "gui/widgets/text.h"
 
 namespace kiln::gui {
 namespace {
@@ -146,9 +147,9 @@ void SceneTile::refreshPoseButton() {
   const bool may = placing_ || placer_.mayStart(&why);
   pose_button_->setEnabled(may);
   pose_button_->setChecked(placing_);
-  pose_button_->setToolTip(
-      may ? tr("tell the robot where it stands: press on the map, drag to its heading, confirm")
-          : tr("set pose: %1").arg(why));
+  setTip(*pose_button_,
+         may ? tr("tell the robot where it stands: press on the map, drag to its heading, confirm")
+             : tr("set pose: %1").arg(why));
 }
 
 void SceneTile::arrange() {
@@ -229,7 +230,7 @@ QWidget* SceneTile::makeCameraButtons() {
     if (!canvas_->usesOpenGl() && b.mode != Mode::Top) continue;
     auto* button = new QToolButton;
     button->setText(b.text);
-    button->setToolTip(b.tip);
+    setTip(*button, b.tip);
     button->setCheckable(true);
     button->setAutoRaise(true);
     button->setFocusPolicy(Qt::NoFocus);
@@ -246,7 +247,7 @@ QWidget* SceneTile::makeCameraButtons() {
   };
   row->insertSpacing(0, 6);
   place_button_ = tool(tr("places"));
-  place_button_->setToolTip(tr("fire places: configured against sensed, and to move one"));
+  setTip(*place_button_, tr("fire places: configured against sensed, and to move one"));
   connect(place_button_, &QToolButton::clicked, place_panel_, &PlacePanel::toggle);
   pose_button_ = tool(tr("set pose"));
   pose_button_->setCheckable(true);

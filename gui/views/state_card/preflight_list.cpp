@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "gui/widgets/fitted_text.h"
+#include "gui/widgets/text.h"
 
 namespace kiln::gui {
 
@@ -37,7 +38,7 @@ void PreflightList::setChecks(const std::vector<Check>& checks) {
                                   : QStringLiteral("!"),
                     text(check.name), text(check.detail));
   }
-  setToolTip(tip.join(QLatin1Char('\n')));
+  setTip(*this, tip.join(QLatin1Char('\n')));
   updateGeometry();
   update();
 }

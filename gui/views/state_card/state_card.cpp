@@ -5,6 +5,8 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
+#include "gui/widgets/text.h"
+
 namespace kiln::gui {
 
 namespace {
@@ -45,8 +47,8 @@ StateCard::StateCard(const Ui& ui, StationModels& models, ForcedJump& jump, QWid
   exits_grid_->setContentsMargins(0, 0, 0, 0);
   exits_grid_->setSpacing(6);
   for (const int side : {0, 1}) exits_grid_->setColumnStretch(side, 1);
+  column->addWidget(release_);  // above words that change: it must not move under the hand
   column->addWidget(notice_);
-  column->addWidget(release_);
   column->addWidget(display_);
   column->addWidget(ticks_);
   column->addWidget(preflight_, 100);
@@ -108,29 +110,28 @@ void StateCard::refreshHeader(const FsmStatus& fsm) {
 void StateCard::refreshNotice() {
   const RobotStatus* status = models_.status.status();
   const FsmStatus* fsm = models_.fsm.status();
-  QString text;
+  Markup text;
   bool fault = false;
   bool good = false;
   if (status && models_.status.word() == StatusWord::Stopped) {
-    text = tr("<b>Stopped</b>: %1. %2")
-               .arg(QString::fromStdString(status->stop.source).toHtmlEscaped(),
-                    status->stop.standstill_proven ? tr("Standstill is proven.")
-                                                   : tr("Coming to rest …"));
+    text = markup(
+        tr("<b>Stopped</b>: %1. %2"), QString::fromStdString(status->stop.source),
+        status->stop.standstill_proven ? tr("Standstill is proven.") : tr("Coming to rest …"));
     fault = true;
   } else if (status && needsRelease(status->arm.safety)) {
-    text = tr("<b>Protective stop of the arm.</b> Look at the arm, then release it.");
+    text = markup(tr("<b>Protective stop of the arm.</b> Look at the arm, then release it."));
     fault = true;
   } else if (fsm && fsm->terminal) {
     good = fsm->success;
-    text = good ? tr("✓ <b>Mission succeeded.</b>") : tr("<b>Mission ended without success.</b>");
+    text = good ? markup(tr("✓ <b>Mission succeeded.</b>"))
+                : markup(tr("<b>Mission ended without success.</b>"));
   } else if (fsm && !fsm->blocked.empty()) {
-    text =
-        tr("<b>Mission blocked</b>: %1").arg(QString::fromStdString(fsm->blocked).toHtmlEscaped());
+    text = markup(tr("<b>Mission blocked</b>: %1"), QString::fromStdString(fsm->blocked));
   } else if (fsm && fsm->paused && status && status->word == StatusWord::Paused) {
-    QString why = QString::fromStdString(status->reason).toHtmlEscaped();
+    QString why = QString::fromStdString(status->reason);
     if (!why.isEmpty()) why[0] = why[0].toUpper();
-    text = tr("<b>%1.</b> The robot holds; the state's clock stands.")
-               .arg(why.isEmpty() ? tr("Paused") : why);
+    text = markup(tr("<b>%1.</b> The robot holds; the state's clock stands."),
+                  why.isEmpty() ? tr("Paused") : why);
   }
   notice_->set(text, fault ? BannerKind::Fault : good ? BannerKind::Good : BannerKind::Caution);
   release_->setVisible(status && needsRelease(status->arm.safety));
@@ -212,8 +213,8 @@ void StateCard::refreshExits() {
     ActButton* button = exits_[i];
     button->setVisible(static_cast<int>(i) < shown);
     button->setEnabled(may);
-    button->setToolTip(may ? tr("%1\nThen hold to jump, below the graph.").arg(button->subtext())
-                           : why);
+    setTip(*button,
+           may ? tr("%1\nThen hold to jump, below the graph.").arg(button->subtext()) : why);
   }
   exits_title_->set(exits_.empty() || checks ? QString{} : tr("Go to instead"));
 }

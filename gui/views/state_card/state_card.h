@@ -25,6 +25,9 @@ class StateCard : public Tile {
   [[nodiscard]] PreflightList* preflight() const { return preflight_; }
   [[nodiscard]] HoldButton* protectiveRelease() const { return release_; }
   [[nodiscard]] const std::vector<ActButton*>& exits() const { return exits_; }
+  /// Whatever it has to say: its neighbours stand still.
+  [[nodiscard]] QSize sizeHint() const override { return {300, 300}; }
+  [[nodiscard]] QSize minimumSizeHint() const override { return {260, 180}; }
 
  protected:
   void resizeEvent(QResizeEvent* event) override;

@@ -9,6 +9,9 @@
 namespace kiln::gui {
 
 DeadMan::DeadMan(HoldToRun& hold, QWidget& panel) : QObject(&panel), hold_(hold), panel_(&panel) {
+  connect(&panel, &QObject::destroyed, &hold, [&hold] {
+    if (hold.holding()) hold.releaseAll(tr("the controls are gone"));
+  });
   qApp->installEventFilter(this);  // sees every window, also one that the panel moves to later
   connect(qApp, &QApplication::focusChanged, this, &DeadMan::focusMoved);
   connect(qApp, &QGuiApplication::applicationStateChanged, this,

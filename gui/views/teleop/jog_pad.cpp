@@ -1,6 +1,5 @@
 #include "gui/views/teleop/jog_pad.h"
 
-#include <QEvent>
 #include <QMouseEvent>
 #include <QPainter>
 #include <algorithm>
@@ -22,7 +21,9 @@ QPointF stickValue(const QPointF& offset_px, double radius_px, double dead_zone)
   return v * (wanted / length);
 }
 
-JogPad::JogPad(const Ui& ui, Axes axes, QWidget* parent) : QWidget(parent), ui_(ui), axes_(axes) {
+JogPad::JogPad(const Ui& ui, Axes axes, QWidget* parent)
+    : QWidget(parent), ui_(ui), guard_(*this), axes_(axes) {
+  connect(&guard_, &PressGuard::over, this, &JogPad::letGo);
   setFocusPolicy(Qt::ClickFocus);
   setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Fixed);
   setCursor(Qt::OpenHandCursor);
@@ -55,6 +56,7 @@ double JogPad::radius() const {
 
 void JogPad::rest() {
   pressed_ = false;
+  guard_.end();
   value_ = {};
   shown_ = {};
   setCursor(Qt::OpenHandCursor);
@@ -70,27 +72,18 @@ void JogPad::setShown(const QPointF& value) {
 void JogPad::mousePressEvent(QMouseEvent* event) {
   if (event->button() != Qt::LeftButton) return;
   pressed_ = true;
+  guard_.begin(true);
   setCursor(Qt::ClosedHandCursor);
   emit taken();
   if (pressed_) follow(event->localPos());
 }
 
 void JogPad::mouseMoveEvent(QMouseEvent* event) {
-  // The button may have been let go where no release was delivered: a moved mouse without it is a
-  // release.
-  if (pressed_ && !(event->buttons() & Qt::LeftButton)) return letGo();
   if (pressed_) follow(event->localPos());
 }
 
 void JogPad::mouseReleaseEvent(QMouseEvent* event) {
   if (event->button() == Qt::LeftButton) letGo();
-}
-
-void JogPad::changeEvent(QEvent* event) {
-  if (event->type() == QEvent::EnabledChange) {
-    if (!isEnabled()) letGo();
-    update();
-  }
 }
 
 void JogPad::follow(const QPointF& mouse) {

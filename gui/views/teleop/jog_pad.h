@@ -3,6 +3,7 @@
 #include <QPointF>
 #include <QWidget>
 
+#include "gui/widgets/press_guard.h"
 #include "gui/widgets/theme.h"
 
 namespace kiln::gui {
@@ -12,7 +13,8 @@ namespace kiln::gui {
 /// @param offset_px  of the mouse from the middle, y down as on screens.
 [[nodiscard]] QPointF stickValue(const QPointF& offset_px, double radius_px, double dead_zone);
 
-/// A virtual stick: press and drag, release is stop. Springs back to the middle by itself.
+/// A virtual stick: press and drag, release is stop, wherever it happens (PressGuard). Springs back
+/// to the middle by itself.
 class JogPad : public QWidget {
   Q_OBJECT
  public:
@@ -40,7 +42,6 @@ class JogPad : public QWidget {
   void mousePressEvent(QMouseEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;
   void mouseReleaseEvent(QMouseEvent* event) override;
-  void changeEvent(QEvent* event) override;
 
  private:
   void follow(const QPointF& mouse);
@@ -50,6 +51,7 @@ class JogPad : public QWidget {
   void paintEnds(QPainter& painter) const;
 
   Ui ui_;
+  PressGuard guard_;
   Axes axes_;
   QPointF value_, shown_;
   bool pressed_ = false;

@@ -3,9 +3,10 @@
 #include <QButtonGroup>
 #include <QGridLayout>
 #include <QKeyEvent>
-#include <QLabel>
 #include <QPainter>
 #include <QToolButton>
+
+#include "gui/widgets/text.h"
 
 namespace kiln::gui {
 namespace {
@@ -21,8 +22,8 @@ JogPanel::JogPanel(const Ui& ui, HoldToRun& hold, QWidget* parent)
       turn_(new JogPad(ui, JogPad::Axes::Horizontal)),
       arm_(new JogPad(ui, JogPad::Axes::Both)),
       up_(new JogPad(ui, JogPad::Axes::Vertical)),
-      drive_caption_(new QLabel(tr("W A S D · Q E"))),
-      arm_caption_(new QLabel),
+      drive_caption_(new Label(tr("W A S D · Q E"))),
+      arm_caption_(new Label),
       modes_(new QButtonGroup(this)) {
   setFocusPolicy(Qt::StrongFocus);
   build();
@@ -61,6 +62,9 @@ void JogPanel::build() {
   arm->addStretch(1);
   arm->addWidget(arm_);
   arm->addWidget(up_);
+  QSizePolicy kept = up_->sizePolicy();
+  kept.setRetainSizeWhenHidden(true);  // the stick beside it stays where it is
+  up_->setSizePolicy(kept);
   arm->addStretch(1);
   grid->addLayout(arm, 0, 2);
   grid->addWidget(buildArmModes(), 1, 2, Qt::AlignCenter);
@@ -77,7 +81,7 @@ QWidget* JogPanel::buildArmModes() {
   const auto add = [&](const QString& text, const QString& tip, int id) {
     auto* button = new QToolButton;
     button->setText(text);
-    button->setToolTip(tip);
+    setTip(*button, tip);
     button->setCheckable(true);
     button->setAutoRaise(true);
     button->setFocusPolicy(Qt::NoFocus);
@@ -184,7 +188,7 @@ void JogPanel::paintEvent(QPaintEvent*) {
 
 void JogPanel::restyle() {
   const Palette& p = ui_.theme.colors();
-  for (QLabel* label : {drive_caption_, arm_caption_}) {
+  for (Label* label : {drive_caption_, arm_caption_}) {
     label->setFont(ui_.theme.font(TextRole::Small));
     label->setStyleSheet(QStringLiteral("color: %1").arg(p.dim.name()));
   }

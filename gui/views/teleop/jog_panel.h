@@ -6,9 +6,9 @@
 #include "gui/views/teleop/jog_keys.h"
 #include "gui/views/teleop/jog_mixer.h"
 #include "gui/views/teleop/jog_pad.h"
+#include "gui/widgets/text.h"
 
 class QButtonGroup;
-class QLabel;
 
 namespace kiln::gui {
 
@@ -46,7 +46,7 @@ class JogPanel : public QWidget {
   JogKeys keys_;
   JogMixer mixer_;
   JogPad *drive_, *turn_, *arm_, *up_;
-  QLabel *drive_caption_, *arm_caption_;
+  Label *drive_caption_, *arm_caption_;
   QButtonGroup* modes_;
 };
 

@@ -1,11 +1,11 @@
 #include "gui/views/teleop/teleop_tile.h"
 
 #include <QHBoxLayout>
-#include <QLabel>
 #include <QSlider>
 #include <cmath>
 
 #include "gui/views/teleop/dead_man.h"
+#include "gui/widgets/text.h"
 
 namespace kiln::gui {
 namespace {
@@ -60,18 +60,19 @@ QWidget* TeleopTile::makeSide() {
   enter_->setSubtext(tr("robot holds"));
   leave_ = new HoldButton(ui_, tr("To autonomy"), 1.0);
   leave_->setSubtext(tr("hold 1 s"));
-  enter_->setToolTip(tr("the mission pauses, the robot holds its pose until you move it"));
-  leave_->setToolTip(tr(
-      "hold for 1 s: sticks and keys are released; the mission stays paused until you resume it"));
-  state_ = new QLabel;
+  setTip(*enter_, tr("the mission pauses, the robot holds its pose until you move it"));
+  setTip(*leave_, tr("hold for 1 s: sticks and keys are released; the mission stays paused until "
+                     "you resume it"));
+  state_ = new Label;
   state_->setWordWrap(true);
+  state_->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Ignored);  // no word moves a control
   state_->setAlignment(Qt::AlignTop | Qt::AlignLeft);
   column->addWidget(enter_);
   column->addWidget(leave_);
   column->addWidget(state_, 1);
   auto* row = new QHBoxLayout;
-  speed_caption_ = new QLabel(tr("Speed"));
-  speed_text_ = new QLabel(tr("%1 %").arg(kDefault_pct));
+  speed_caption_ = new Label(tr("Speed"));
+  speed_text_ = new Label(tr("%1 %").arg(kDefault_pct));
   row->addWidget(speed_caption_, 1);
   row->addWidget(speed_text_);
   column->addLayout(row);
@@ -80,7 +81,7 @@ QWidget* TeleopTile::makeSide() {
   speed_->setValue(kDefault_pct);
   speed_->setPageStep(5);
   speed_->setFocusPolicy(Qt::NoFocus);  // arrows belong to the arm
-  speed_->setToolTip(tr("share of the teleop speed at full stick; the robot applies it"));
+  setTip(*speed_, tr("share of the teleop speed at full stick; the robot applies it"));
   column->addWidget(speed_);
   return side;
 }
@@ -138,6 +139,7 @@ void TeleopTile::refresh() {
     color = !slow.isEmpty() ? p.caution : hold_.holding() ? p.manual : p.dim;
   }
   state_->setText(text);
+  setTip(*state_, text);
   const QString style = QStringLiteral("color: %1").arg(color.name());
   if (style != state_->styleSheet()) state_->setStyleSheet(style);  // Qt polishes anew each time
   setInfo(why.isEmpty() ? tr("live") : tr("locked"));

@@ -3,9 +3,9 @@
 #include "gui/views/teleop/hold_to_run.h"
 #include "gui/views/teleop/jog_panel.h"
 #include "gui/widgets/hold_button.h"
+#include "gui/widgets/text.h"
 #include "gui/widgets/tile.h"
 
-class QLabel;
 class QSlider;
 
 namespace kiln::gui {
@@ -36,7 +36,7 @@ class TeleopTile : public Tile {
   JogPanel* panel_;
   ActButton* enter_;
   HoldButton* leave_;
-  QLabel *state_, *speed_caption_, *speed_text_;
+  Label *state_, *speed_caption_, *speed_text_;
   QSlider* speed_;
   QTimer speed_timer_;
   QString trip_;  ///< why the last hold ended by force

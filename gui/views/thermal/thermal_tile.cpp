@@ -1,8 +1,9 @@
 #include "gui/views/thermal/thermal_tile.h"
 
 #include <QHBoxLayout>
-#include <QLabel>
 #include <QToolButton>
+
+#include "gui/widgets/text.h"
 
 namespace kiln::gui {
 namespace {
@@ -66,12 +67,12 @@ QWidget* ThermalTile::makeColumn() {
   auto* layout = new QVBoxLayout(column_);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(3);
-  peak_caption_ = new QLabel(tr("Peak"));
-  peak_ = new QLabel;
-  box_ = new QLabel;
-  rejected_ = new QLabel;
-  reading_ = new QLabel;
-  for (QLabel* label : {peak_caption_, peak_, box_, rejected_, reading_}) {
+  peak_caption_ = new Label(tr("Peak"));
+  peak_ = new Label;
+  box_ = new Label;
+  rejected_ = new Label;
+  reading_ = new Label;
+  for (Label* label : {peak_caption_, peak_, box_, rejected_, reading_}) {
     label->setWordWrap(label != peak_);
     layout->addWidget(label);
   }
@@ -79,9 +80,9 @@ QWidget* ThermalTile::makeColumn() {
   scale_ = new QToolButton;
   scale_->setCheckable(true);
   nameScale();
-  scale_->setToolTip(
-      tr("fixed 20 to 150 °C, or fitted to each picture (then the same colour means another "
-         "temperature)"));
+  setTip(*scale_,
+         tr("fixed 20 to 150 °C, or fitted to each picture (then the same colour means another "
+            "temperature)"));
   scale_->setFocusPolicy(Qt::NoFocus);
   layout->addWidget(scale_);
   return column_;
@@ -92,7 +93,7 @@ void ThermalTile::resizeEvent(QResizeEvent* event) {
   const bool narrow = width() < kNarrow_px;
   column_->setFixedWidth(narrow ? kNarrowColumn_px : kColumn_px);
   view_->setCompact(narrow);
-  for (QLabel* label : {box_, rejected_, reading_}) label->setVisible(!narrow);
+  for (Label* label : {box_, rejected_, reading_}) label->setVisible(!narrow);
   nameScale();
 }
 
@@ -150,7 +151,7 @@ void ThermalTile::refreshAge() {
 
 void ThermalTile::restyle() {
   const Palette& p = ui_.theme.colors();
-  const auto style = [](QLabel* label, const QColor& color, const QFont& font) {
+  const auto style = [](Label* label, const QColor& color, const QFont& font) {
     label->setFont(font);
     label->setStyleSheet(QStringLiteral("color: %1").arg(color.name()));
   };

@@ -2,9 +2,9 @@
 
 #include "gui/models/station_models.h"
 #include "gui/views/thermal/thermal_view.h"
+#include "gui/widgets/text.h"
 #include "gui/widgets/tile.h"
 
-class QLabel;
 class QToolButton;
 
 namespace kiln::gui {
@@ -33,7 +33,7 @@ class ThermalTile : public Tile {
   Ui ui_;
   StationModels& models_;
   ThermalView* view_;
-  QLabel *peak_caption_, *peak_, *box_, *rejected_, *reading_;
+  Label *peak_caption_, *peak_, *box_, *rejected_, *reading_;
   QToolButton* scale_;
   QWidget* column_ = nullptr;
 };

@@ -4,6 +4,7 @@
 #include <QPainter>
 
 #include "gui/widgets/fitted_text.h"
+#include "gui/widgets/text.h"
 
 namespace kiln::gui {
 
@@ -61,7 +62,8 @@ void LeaseChip::refresh() {
                    : !lease_.askedBy().isEmpty() ? ActKind::Caution
                                                  : ActKind::Normal);
   button_->setEnabled(lease_.possible() && holder != LeaseHolder::Unknown && !lease_.requesting());
-  setToolTip(
+  setTip(
+      *this,
       !lease_.possible() ? tr("A recording cannot be commanded.")
       : lease_.refusal().isEmpty()
           ? tr("%1. The lease lets one station command the robot. STOP needs no lease.").arg(text())

@@ -6,6 +6,7 @@
 
 #include "gui/widgets/fitted_text.h"
 #include "gui/widgets/hatch.h"
+#include "gui/widgets/text.h"
 
 namespace kiln::gui {
 
@@ -122,7 +123,7 @@ void StatusBlock::paintEvent(QPaintEvent*) {
   x += QFontMetricsF(large).horizontalAdvance(word()) + kGap_px;
   painter.setPen(ui_.theme.colors().text);
   const QString text = reason();
-  setToolTip(text);
+  setTip(*this, text);
   const QFont body = ui_.theme.font(TextRole::Body), small = ui_.theme.font(TextRole::Small);
   const int room = static_cast<int>(width() - x - 6);
   paintFitted(painter, QRectF(x, 1, room, height()), Qt::AlignVCenter | Qt::AlignLeft,

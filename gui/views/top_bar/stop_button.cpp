@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "gui/widgets/fitted_text.h"
+#include "gui/widgets/text.h"
 
 namespace kiln::gui {
 
@@ -23,9 +24,8 @@ StopButton::StopButton(const Ui& ui, StopModel& stop, QWidget* parent)
     : QWidget(parent), ui_(ui), stop_(stop) {
   setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Fixed);
   setCursor(Qt::PointingHandCursor);
-  setToolTip(
-      tr("Software stop (Space or Pause): robot ramps down, pumps off, magnets keep.\n"
-         "It is not an emergency stop: that is the red mushroom on the robot."));
+  setTip(*this, tr("Software stop (Space or Pause): robot ramps down, pumps off, magnets keep.\n"
+                   "It is not an emergency stop: that is the red mushroom on the robot."));
   setAccessibleName(tr("STOP (software)"));
   connect(&stop_, &Model::changed, this, qOverload<>(&QWidget::update));
   connect(&ui_.theme, &Theme::changed, this, qOverload<>(&QWidget::update));
@@ -116,7 +116,7 @@ QString StopNote::text() const {
 void StopNote::refresh() {
   const bool shown = !text().isEmpty();
   if (shown == isHidden()) setVisible(shown);
-  setToolTip(text());
+  setTip(*this, text());
   update();
 }
 

@@ -1,5 +1,6 @@
 #include "gui/views/top_bar/top_bar.h"
 
+#include <QEvent>
 #include <QHBoxLayout>
 #include <QPainter>
 #include <cmath>
@@ -8,13 +9,14 @@
 #include "gui/views/top_bar/status_word.h"
 #include "gui/views/top_bar/stop_button.h"
 #include "gui/widgets/age_badge.h"
+#include "gui/widgets/text.h"
 
 namespace kiln::gui {
 
 namespace {
 constexpr int kHeight_px = 48;
-constexpr int kNarrow_px = 1280, kLeast_px = 1264;
-constexpr int kRoomForNote_px = 1560;
+constexpr int kLeast_px = 1264;
+constexpr int kRoomForAll_px = 1500;
 constexpr double kBatteryEmpty_v = 24.0;
 constexpr double kBatteryLow_v = 26.0;
 constexpr double kBatteryFull_v = 29.6;
@@ -30,9 +32,6 @@ QString clockText(double s) {
       .arg(whole / 60, 2, 10, QLatin1Char('0'))
       .arg(whole % 60, 2, 10, QLatin1Char('0'));
 }
-QString ms(double s) {
-  return s < 0 ? QStringLiteral("–") : QString::number(std::lround(s * 1000));
-}
 }  // namespace
 
 TopBar::TopBar(const Ui& ui, StationModels& models, QWidget* parent)
@@ -41,7 +40,7 @@ TopBar::TopBar(const Ui& ui, StationModels& models, QWidget* parent)
       models_(models),
       status_(new StatusBlock(ui, models, this)),
       lease_(new LeaseChip(ui, models.lease, this)),
-      link_(new Figure(ui, tr("Link"), QStringLiteral("↓888 ↑888 ms 88.8 %"), this)),
+      link_(new Figure(ui, tr("Link"), QStringLiteral("8888 ms · 88 %"), this)),
       age_(new Figure(ui, tr("Data age"), QStringLiteral("8.88 s"), this)),
       battery_(new Figure(ui, tr("Battery"), QStringLiteral("88.8 V"), this)),
       water_(new Figure(ui, tr("Water est."), QStringLiteral("88.8 l"), this)),
@@ -51,7 +50,7 @@ TopBar::TopBar(const Ui& ui, StationModels& models, QWidget* parent)
       stop_note_(new StopNote(ui, models.stop, this)),
       stop_(new StopButton(ui, models.stop, this)) {
   setFixedHeight(kHeight_px);
-  setMinimumWidth(kLeast_px);  // a note that comes must not widen the window
+  setMinimumWidth(kLeast_px);
   clock_->setRole(TextRole::Strong);
   score_->setRole(TextRole::Strong);
   clear_->setSubtext(tr("hold 1 s"));
@@ -64,9 +63,13 @@ TopBar::TopBar(const Ui& ui, StationModels& models, QWidget* parent)
        {static_cast<QWidget*>(lease_), static_cast<QWidget*>(link_), static_cast<QWidget*>(age_),
         static_cast<QWidget*>(battery_), static_cast<QWidget*>(water_),
         static_cast<QWidget*>(clock_), static_cast<QWidget*>(score_), static_cast<QWidget*>(clear_),
-        static_cast<QWidget*>(stop_note_), static_cast<QWidget*>(stop_)}) {
+        static_cast<QWidget*>(stop_)}) {
     row->addWidget(widget);
   }
+  QSizePolicy kept = clear_->sizePolicy();
+  kept.setRetainSizeWhenHidden(true);  // nothing moves when a STOP latches
+  clear_->setSizePolicy(kept);
+  stop_note_->resize(stop_note_->sizeHint());
   connect(&models_, &StationModels::aged, lease_, &LeaseChip::refresh);
   connect(clear_, &HoldButton::completed, &models_.stop, &StopModel::clear);
   for (const Model* model :
@@ -85,11 +88,9 @@ void TopBar::refresh() {
   const AgeLevel level = models_.status.ageLevel();
   clear_->setVisible(models_.stop.latched());
   clear_->setEnabled(models_.lease.mine());
-  clear_->setToolTip(models_.lease.mine()
-                         ? tr("Clears the latch. Nothing moves by itself afterwards.")
-                         : tr("Clearing a stop needs the lease."));
+  setTip(*clear_, models_.lease.mine() ? tr("Clears the latch. Nothing moves by itself afterwards.")
+                                       : tr("Clearing a stop needs the lease."));
   stop_note_->refresh();
-  arrange();
   const RobotStatus* status = models_.status.status();
   if (!status) {
     for (Figure* figure : {battery_, water_, clock_, score_})
@@ -117,10 +118,9 @@ void TopBar::refresh() {
 
 void TopBar::refreshLink() {
   const LinkHealth& health = models_.link_state.health();
-  const double worst_s = std::max(health.rtt_s, 2 * std::max(health.up_s, health.down_s));
-  AgeLevel level = worst_s >= kVerySlowLink_s ? AgeLevel::Red
-                   : worst_s >= kSlowLink_s   ? AgeLevel::Amber
-                                              : AgeLevel::Fresh;
+  AgeLevel level = health.rtt_s >= kVerySlowLink_s ? AgeLevel::Red
+                   : health.rtt_s >= kSlowLink_s   ? AgeLevel::Amber
+                                                   : AgeLevel::Fresh;
   if (health.state == LinkState::Degraded) level = AgeLevel::Amber;
   if (!models_.link_state.usable()) {
     link_->set(health.state == LinkState::Connecting ? tr("connecting …")
@@ -130,30 +130,41 @@ void TopBar::refreshLink() {
   } else if (health.robot_hears_age_s > 1.5) {
     link_->set(tr("robot is deaf"), AgeLevel::Red);
   } else {
-    link_->set(QStringLiteral("↓%1 ↑%2 ms %3 %")
-                   .arg(ms(health.down_s), ms(health.up_s))
-                   .arg(100 * health.loss, 0, 'f', 1),
+    link_->set(QStringLiteral("%1 ms · %2 %")
+                   .arg(health.rtt_s < 0 ? QStringLiteral("–")
+                                         : QString::number(std::lround(1e3 * health.rtt_s)))
+                   .arg(100 * health.loss, 0, 'f', 0),
                level);
   }
-  link_->setToolTip(tr("%1\none way down and up, heartbeats lost over 10 s").arg(health.endpoint));
+  setTip(*link_,
+         tr("%1\nround trip of the last heartbeat; share of status messages lost lately (of about "
+            "the last 50)")
+             .arg(health.endpoint));
   const double age_s = models_.status.ageS();
   age_->set(age_s < 0 ? QStringLiteral("–") : ageText(age_s), models_.status.ageLevel());
 }
 
 void TopBar::arrange() {
-  const bool wide = width() >= kNarrow_px;
-  const bool noted = !stop_note_->text().isEmpty(), cleared = clear_->isHidden();
-  const bool roomy = width() >= kRoomForNote_px || !noted;
-  const bool all = width() >= kRoomForNote_px || (wide && !noted && cleared);
+  const bool all = width() >= kRoomForAll_px;
   age_->setVisible(all);
   score_->setVisible(all);
-  battery_->setVisible(roomy);
-  water_->setVisible(roomy);
+  // Over figures that nobody knows while it is there, and never over the key.
+  stop_note_->move(stop_->x() - stop_note_->width() - 2, stop_->y());
+  stop_note_->raise();
 }
 
 void TopBar::resizeEvent(QResizeEvent* event) {
   QWidget::resizeEvent(event);
   arrange();
+}
+
+bool TopBar::event(QEvent* event) {
+  const bool handled = QWidget::event(event);
+  if (event->type() == QEvent::LayoutRequest || event->type() == QEvent::Show) {
+    layout()->activate();
+    arrange();
+  }
+  return handled;
 }
 
 void TopBar::paintEvent(QPaintEvent*) {

@@ -28,11 +28,12 @@ class TopBar : public QWidget {
  protected:
   void paintEvent(QPaintEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
+  bool event(QEvent* event) override;
 
  private:
   void refresh();
   void refreshLink();
-  /// Narrow bars leave out what matters least; a lost link needs room to say what STOP does.
+  /// Narrow bars leave out what matters least; nothing but the width decides where a key stands.
   void arrange();
   Ui ui_;
   StationModels& models_;

@@ -109,5 +109,48 @@ TEST_F(HoldButtonTest, TheKeyboardCanHoldItWithReturn) {
   EXPECT_EQ(disengaged.count(), 1);
 }
 
+TEST_F(HoldButtonTest, TheReleaseIsTakenWhereverItHappens) {
+  button->setHold(0.0);
+  QTest::mousePress(button, Qt::LeftButton);
+  button->move(button->pos() + QPoint(0, 300));  // a layout that moves the row away
+  EXPECT_EQ(disengaged.count(), 1) << "moved from under the hand";
+  QTest::mousePress(button, Qt::LeftButton);
+  QTest::mouseRelease(other, Qt::LeftButton);
+  EXPECT_EQ(disengaged.count(), 2) << "let go over another widget";
+  QTest::mousePress(button, Qt::LeftButton);
+  QMouseEvent bare(QEvent::MouseMove, QPointF(3, 3), Qt::NoButton, Qt::NoButton, Qt::NoModifier);
+  QApplication::sendEvent(other, &bare);
+  EXPECT_EQ(disengaged.count(), 3) << "a mouse without its button down has let go";
+  QTest::mousePress(button, Qt::LeftButton);
+  QEvent dialog(QEvent::WindowBlocked);
+  QApplication::sendEvent(&window, &dialog);
+  EXPECT_EQ(disengaged.count(), 4);
+}
+
+TEST_F(HoldButtonTest, ComingBackWithTheButtonDownIsNoPress) {
+  button->setHold(0.0);
+  QTest::mousePress(button, Qt::LeftButton);
+  const auto move = [&](const QPointF& to) {
+    QMouseEvent event(QEvent::MouseMove, to, Qt::NoButton, Qt::LeftButton, Qt::NoModifier);
+    QApplication::sendEvent(button, &event);
+  };
+  move({-50, -50});
+  EXPECT_EQ(disengaged.count(), 1);
+  move({5, 5});
+  EXPECT_EQ(engaged.count(), 1);
+  QTest::mouseRelease(button, Qt::LeftButton);
+  QTest::mousePress(button, Qt::LeftButton);
+  button->cancel();  // the robot has ended it
+  move({6, 6});
+  EXPECT_EQ(engaged.count(), 2) << "only a new press";
+}
+
+TEST_F(HoldButtonTest, AButtonThatDiesHasLetGo) {
+  button->setHold(0.0);
+  QTest::mousePress(button, Qt::LeftButton);
+  delete button;
+  EXPECT_EQ(disengaged.count(), 1);
+}
+
 }  // namespace
 }  // namespace kiln::gui

@@ -1,5 +1,6 @@
 #include "gui/views/state_card/state_card.h"
 
+#include <QLabel>
 #include <QTest>
 
 #include <gtest/gtest.h>
@@ -82,6 +83,18 @@ TEST_F(StateCardTest, OffersTheReleaseOfAProtectiveStopOnlyInOne) {
   for (const CommandBody& body : station.link.sent()) {
     EXPECT_FALSE(std::holds_alternative<ReleaseProtectiveStop>(body)) << "a tap must not release";
   }
+}
+
+TEST_F(StateCardTest, AStopsNameIsNeverMarkup) {
+  RobotStatus status = *station.models.status.status();
+  status.word = StatusWord::Stopped;
+  status.stop.latched = true;
+  status.stop.source = "<img src=\"/dev/zero\">x. <b>Standstill is proven.</b>";
+  emit station.link.status(std::make_shared<const RobotStatus>(status));
+  station.settle();
+  for (const QLabel* label : card.findChildren<QLabel*>())
+    EXPECT_FALSE(label->text().contains("<img") || label->text().contains("<b>Standstill"))
+        << label->text().toStdString();
 }
 
 TEST_F(StateCardTest, AGuardWithAnOldInputNeedsAttention) {

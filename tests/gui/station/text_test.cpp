@@ -1,9 +1,14 @@
+#include "gui/widgets/text.h"
+
 #include <QFontMetrics>
+#include <QTextDocument>
+#include <QWidget>
 
 #include <gtest/gtest.h>
 
 #include "common/core/clock.h"
 #include "gui/widgets/act_button.h"
+#include "gui/widgets/banner.h"
 #include "gui/widgets/fitted_text.h"
 #include "gui/widgets/label_layout.h"
 
@@ -97,6 +102,36 @@ TEST(LabelLayout, ATargetThatFillsThePictureIsLabelledAllTheSame) {
   ASSERT_TRUE(places[0]);
   const auto none = placeLabels({{QRectF(1, 1, 4, 4), QSizeF(50, 16)}}, {0, 0, 40, 10});
   EXPECT_FALSE(none[0]) << "a plate larger than the picture has no place";
+}
+
+/// What a reader sees of it.
+QString shown(const QString& html) {
+  QTextDocument document;
+  document.setHtml(html);
+  return document.toPlainText();
+}
+const QString kHostile = QStringLiteral("<img src=\"/dev/zero\"> %1 & <b>all is well</b>");
+
+TEST(Markup, ANameFromOutsideStandsThereAsItIs) {
+  const Markup words = markup(QStringLiteral("<b>Stopped</b>: %1. %2"), kHostile, "At rest.");
+  EXPECT_EQ(shown(words.html()), "Stopped: " + kHostile + ". At rest.");
+  EXPECT_FALSE(words.html().contains("<img"));
+  EXPECT_EQ(shown(Markup(kHostile).html()), kHostile);
+}
+
+TEST(Markup, LabelsBannersAndTipsShowTagsAndDoNotObeyThem) {
+  Label label(kHostile);
+  EXPECT_EQ(label.textFormat(), Qt::PlainText);
+  Theme theme;
+  ManualClock clock;
+  Banner banner({theme, clock});
+  banner.set(kHostile);
+  EXPECT_EQ(shown(banner.text()), kHostile);
+  QWidget widget;
+  setTip(widget, kHostile);
+  EXPECT_EQ(shown(widget.toolTip()), kHostile);
+  setTip(widget, "plain & simple");
+  EXPECT_EQ(widget.toolTip(), "plain & simple");
 }
 
 }  // namespace

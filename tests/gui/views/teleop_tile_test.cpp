@@ -130,5 +130,76 @@ TEST_F(TeleopTileTest, AMacroIsCancelledByLettingGoAndByAStop) {
   EXPECT_FALSE(hold.holding());
 }
 
+TEST_F(TeleopTileTest, AMacroGoesOnWhereItWasAndBeginsAnewByItsOwnKey) {
+  emit link.macros({{"arm park", "", 6.0, 0.0, ""}});
+  models.flush();
+  MacroRow& row = *macros.rows().front();
+  mouse(row, QEvent::MouseButtonPress, {10, 10});
+  ASSERT_NE(lastSetpoint<HoldMacro>(), nullptr);
+  EXPECT_FALSE(lastSetpoint<HoldMacro>()->restart);
+  mouse(row, QEvent::MouseButtonRelease, {10, 10});
+  mouse(row.restart(), QEvent::MouseButtonPress, {10, 10});
+  EXPECT_TRUE(lastSetpoint<HoldMacro>()->restart);
+  EXPECT_EQ(lastSetpoint<HoldMacro>()->name, "arm park");
+  mouse(row.restart(), QEvent::MouseButtonRelease, {10, 10});
+  EXPECT_FALSE(hold.holding());
+}
+
+TEST_F(TeleopTileTest, AMacrosStepIsCountedAsTheRobotCountsIt) {
+  emit link.macros({{"arm park", "", 6.0, 0.0, ""}});
+  status.macro = {"arm park", 1, 3, "arm to park", 0.1, ""};
+  feed();
+  EXPECT_TRUE(macros.rows().front()->line().startsWith("step 1 of 3"))
+      << macros.rows().front()->line().toStdString();
+}
+
+TEST_F(TeleopTileTest, NoWordMovesAControl) {
+  emit link.macros({{"arm park", "", 6.0, 0.0, ""}, {"spray fire 1", "", 18.0, 0.9, "near"}});
+  feed();
+  QCoreApplication::processEvents();
+  const auto places = [&] {
+    std::vector<QRect> out;
+    for (const QWidget* control : window.findChildren<QWidget*>()) {
+      if (!control->inherits("kiln::gui::ActButton") && !control->inherits("kiln::gui::JogPad") &&
+          !control->inherits("QSlider"))
+        continue;
+      out.push_back({control->mapTo(&window, QPoint()), control->size()});
+    }
+    return out;
+  };
+  const auto before = places();
+  const auto expectStill = [&](const char* when) {
+    QCoreApplication::processEvents();
+    EXPECT_EQ(places(), before) << when;
+  };
+  status.macro.last_result =
+      "failed: the base is 3.43 m and 12 deg off the work pose of place 1; drive there first";
+  feed();
+  expectStill("a macro has failed");
+  link.time.advanceBy(std::chrono::seconds(2));
+  feed(false);
+  emit models.aged();
+  expectStill("no fresh view");
+  hold.releaseAll("the robot has ended this hold: let go and press again");
+  expectStill("let go by force");
+  health.rtt_s = 0.2;
+  feed();
+  expectStill("a slow link");
+  status.lease = {};
+  feed();
+  expectStill("the lease is gone");
+}
+
+TEST_F(TeleopTileTest, ARowThatMovesUnderTheHandLetsGo) {
+  emit link.macros({{"arm park", "", 6.0, 0.0, ""}});
+  models.flush();
+  QCoreApplication::processEvents();
+  mouse(*macros.rows().front(), QEvent::MouseButtonPress, {10, 10});
+  ASSERT_TRUE(hold.holding(HoldKind::Macro));
+  window.layout()->setContentsMargins(0, 60, 0, 0);
+  QCoreApplication::processEvents();
+  EXPECT_FALSE(hold.holding());
+}
+
 }  // namespace
 }  // namespace kiln::gui
