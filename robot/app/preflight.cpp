@@ -39,6 +39,14 @@ Check armSafetyCheck(const PreflightInputs& in) {
   return fail("Arm safety", mode, "look at the arm, then release it by hand");
 }
 
+Check lidarCheck(const PreflightInputs& in, const PreflightLimits& limits) {
+  Check age = ageCheck("LiDAR", in.lidar_age_s, limits.lidar_age_s, "check its cable and power");
+  if (!age.ok || in.lidar_defects.text.empty()) return age;
+  age.detail += "; " + in.lidar_defects.text;
+  if (in.lidar_defects.missing_fraction <= limits.lidar_missing) return age;
+  return warn("LiDAR", age.detail, "clouds have holes: check its cable, or record again");
+}
+
 Check thermalCheck(const PreflightInputs& in, const PreflightLimits& limits) {
   Check age =
       ageCheck("Thermal camera", in.thermal_age_s, limits.thermal_age_s, "check its USB cable");
@@ -198,6 +206,7 @@ void PreflightLimits::visit(ConfigArchive& a) {
   a.field("device_age_s", device_age_s, "s", 0.01, 5, "oldest allowed arm, base or pump state");
   a.field("lidar_age_s", lidar_age_s, "s", 0.1, 10, "oldest allowed LiDAR scan");
   a.field("thermal_age_s", thermal_age_s, "s", 0.1, 10, "oldest allowed thermal image");
+  a.field("lidar_missing", lidar_missing, "", 0, 1, "share of LiDAR packets that may be missing");
   a.field("product_age_s", product_age_s, "s", 0.2, 10,
           "oldest allowed cloud or heat detection while its sensor delivers");
   a.field("battery_min_v", battery_min_v, "V", 0, 60, "start no mission below");
@@ -217,7 +226,7 @@ std::vector<Check> preflight(const PreflightInputs& in, const PreflightLimits& l
           ageCheck("Base", in.base_age_s, limits.device_age_s, "check the wheel controllers"),
           ageCheck("Pumps", in.pumps_age_s, limits.device_age_s, "check the pump controller"),
           pumpCurrentCheck(in, limits),
-          ageCheck("LiDAR", in.lidar_age_s, limits.lidar_age_s, "check its cable and power"),
+          lidarCheck(in, limits),
           thermalCheck(in, limits),
           perceptionCheck(in, limits),
           transformsCheck(in),

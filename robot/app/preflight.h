@@ -6,6 +6,7 @@
 
 #include "common/model/status.h"
 #include "robot/app/controller_limits.h"
+#include "robot/hal/lidar.h"
 #include "robot/localization/pose_tracker.h"
 
 namespace kiln {
@@ -30,6 +31,7 @@ struct PreflightInputs {
   std::optional<double> arm_age_s, base_age_s, pumps_age_s, lidar_age_s, thermal_age_s;
   /// Age of what perception has delivered last, by the stamp of the frame that it was made of.
   std::optional<double> cloud_age_s, heat_age_s;
+  LidarDefects lidar_defects;
   ArmSafetyMode arm_safety = ArmSafetyMode::Normal;
   bool thermal_usable = true;
   std::string thermal_refusal;
@@ -53,6 +55,7 @@ struct PreflightLimits {
   double device_age_s = 0.2;
   double lidar_age_s = 0.5;
   double thermal_age_s = 1.5;     ///< longer than one shutter freeze
+  double lidar_missing = 0.01;    ///< of its packets; more: warn
   double product_age_s = 1.0;     ///< of a cloud or heat detection whose sensor delivers
   double battery_min_v = 25.6;    ///< 3.2 V a cell
   double clock_error_s = 0.02;    ///< console.md section 3, row 15

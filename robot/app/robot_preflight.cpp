@@ -84,6 +84,7 @@ PreflightInputs Robot::Impl::preflightInputs(Stamp now) const {
   in.pumps = devices.pumps.state();
   in.pumps_age_s = ageOf(stampOf(in.pumps), now);
   in.lidar_age_s = ageOf(perception.lastScan(), now);
+  if (devices.lidar != nullptr) in.lidar_defects = devices.lidar->defects();
   in.thermal_age_s = ageOf(perception.lastThermal(), now);
   in.cloud_age_s = ageOf(perception.lastCloud(), now);
   in.heat_age_s = ageOf(perception.lastHeat(), now);

@@ -98,12 +98,17 @@ TEST(FuzzVelodyne, PositionPacketsAndFrames) {
   frame[38] = 2;
   frame[39] = 8;
   frame.insert(frame.end(), good.begin(), good.end());
-  ASSERT_TRUE(udpDatagramOf(LinkType::Ethernet, frame).has_value());
+  const auto datagramOf = [](LinkType link, const Bytes& bytes) -> std::optional<UdpDatagram> {
+    const auto packet = ipv4PacketOf(link, bytes, bytes.size());
+    return packet ? udpDatagramOf(*packet) : std::nullopt;
+  };
+  ASSERT_TRUE(datagramOf(LinkType::Ethernet, frame).has_value());
   for (int i = 0; i < 60000; ++i) {
     (void)parsePositionPacket(mutator.mutate(good));
     const Bytes bad = mutator.mutate(frame);
-    for (const LinkType link : {LinkType::Ethernet, LinkType::RawIp, LinkType::LinuxCooked}) {
-      if (const auto udp = udpDatagramOf(link, bad)) {
+    for (const LinkType link :
+         {LinkType::Ethernet, LinkType::RawIp, LinkType::LinuxCooked, LinkType::LinuxCooked2}) {
+      if (const auto udp = datagramOf(link, bad)) {
         ASSERT_GE(udp->payload.data(), bad.data());
         ASSERT_LE(udp->payload.data() + udp->payload.size(), bad.data() + bad.size());
       }

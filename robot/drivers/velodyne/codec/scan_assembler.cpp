@@ -7,20 +7,12 @@
 namespace kiln::velodyne {
 namespace {
 
-constexpr std::int64_t kHour_us = 3'600'000'000;
 constexpr double kLargestHole_us = 1e6;
 constexpr std::size_t kTypicalPoints = 30000;
 // Sensor time is trusted between packets; every packet lets the mapping creep towards a late
 // arrival by this much, so that a slow sensor clock (tens of ppm) is followed without importing the
 // network's jitter.
 constexpr Duration kCreep{200};
-
-/// From a to b on the sensor's clock that restarts at each full hour.
-std::int64_t elapsed_us(std::uint32_t a, std::uint32_t b) {
-  std::int64_t d = static_cast<std::int64_t>(b) - a;
-  if (d < -kHour_us / 2) d += kHour_us;
-  return d;
-}
 
 }  // namespace
 

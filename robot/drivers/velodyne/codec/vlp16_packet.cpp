@@ -110,6 +110,12 @@ Result<Vlp16Packet> parseVlp16Packet(std::span<const std::uint8_t> payload) {
   return packet;
 }
 
+std::int64_t elapsed_us(std::uint32_t a, std::uint32_t b) {
+  const std::int64_t d = static_cast<std::int64_t>(b) - a;
+  if (d < -std::int64_t{kHour_us} / 2) return d + kHour_us;
+  return d > std::int64_t{kHour_us} / 2 ? d - kHour_us : d;
+}
+
 std::array<std::uint8_t, kDataPacketBytes> encodeVlp16Packet(const Vlp16Packet& packet) {
   std::array<std::uint8_t, kDataPacketBytes> out{};
   const auto put16 = [&out](std::size_t at, std::uint32_t value) {

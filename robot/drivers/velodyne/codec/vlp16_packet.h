@@ -41,6 +41,10 @@ struct Vlp16Packet {
 /// a time beyond the hour or dual-return blocks whose azimuths differ.
 [[nodiscard]] Result<Vlp16Packet> parseVlp16Packet(std::span<const std::uint8_t> payload);
 
+/// From a to b on the sensor's clock, which restarts at each full hour; within half an hour either
+/// way.
+[[nodiscard]] std::int64_t elapsed_us(std::uint32_t a, std::uint32_t b);
+
 /// The inverse of parseVlp16Packet: the emulator's and the tests' side of the wire.
 [[nodiscard]] std::array<std::uint8_t, kDataPacketBytes> encodeVlp16Packet(
     const Vlp16Packet& packet);

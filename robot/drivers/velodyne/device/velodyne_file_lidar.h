@@ -10,10 +10,10 @@
 
 namespace kiln {
 
-/// A recorded VLP-16 as if it were there: plays a capture at its recorded pace through the
-/// executor's clock and begins again at its end (said once in the log). Revolutions that would join
-/// end and beginning are left out. Thread-safe; the sink is called on the executor's tick thread
-/// `io.lidar`.
+/// A recorded VLP-16 as if it were there: plays a capture at the pace of the sensor's own clock and
+/// begins again at its end (said once in the log, as is what is missing in the file). Revolutions
+/// that would join end and beginning are left out. Thread-safe; the sink is called on the
+/// executor's tick thread `io.lidar`.
 class VelodyneFileLidar final : public Lidar {
  public:
   struct Config {
@@ -22,7 +22,7 @@ class VelodyneFileLidar final : public Lidar {
   };
   /// Opens and checks the whole file, and registers the tick: call it before the executor starts.
   /// Error: one sentence with file, place and what to do: missing, cut off, not a capture, another
-  /// sensor's packets.
+  /// sensor's packets. Stray packets are passed over and counted.
   [[nodiscard]] static Result<std::unique_ptr<VelodyneFileLidar>> open(const std::string& path,
                                                                        Executor& executor,
                                                                        Config config);
@@ -34,6 +34,7 @@ class VelodyneFileLidar final : public Lidar {
 
   Result<void> start(Sink<PointCloudPtr> sink) override;
   void stop() override;
+  [[nodiscard]] LidarDefects defects() const override;
 
   /// Of the file as a whole, from the check at opening.
   [[nodiscard]] const velodyne::CaptureSummary& summary() const { return summary_; }

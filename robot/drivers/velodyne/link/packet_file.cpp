@@ -3,7 +3,9 @@
 #include <array>
 #include <filesystem>
 #include <fstream>
+#include <string_view>
 
+#include "robot/drivers/velodyne/codec/vlp16_packet.h"
 #include "robot/drivers/velodyne/link/pcap_file.h"
 #include "robot/drivers/velodyne/link/raw_packet_file.h"
 
@@ -24,6 +26,34 @@ bool isPcap(const Magic& m) {
     default:
       return false;
   }
+}
+
+struct Packer {
+  std::string_view magic, name, unpack;
+};
+constexpr std::array<Packer, 6> kPackers{{{"\x1F\x8B", "gzip", "gunzip"},
+                                          {"\x28\xB5\x2F\xFD", "zstd", "unzstd"},
+                                          {"\xFD\x37zX", "xz", "unxz"},
+                                          {"BZh", "bzip2", "bunzip2"},
+                                          {"\x04\x22\x4D\x18", "lz4", "unlz4"},
+                                          {"PK\x03\x04", "zip", "unzip"}}};
+
+const Packer* packerOf(const Magic& magic) {
+  const std::string_view begin(reinterpret_cast<const char*>(magic.data()), magic.size());
+  for (const Packer& packer : kPackers) {
+    if (begin.starts_with(packer.magic)) return &packer;
+  }
+  return nullptr;
+}
+
+/// Raw packets, the first of which may be damaged.
+bool isRaw(std::ifstream& in, const Magic& magic) {
+  if (magic[0] == 0xFF && magic[1] == 0xEE) return true;
+  std::array<unsigned char, 2> second{};
+  in.clear();
+  in.seekg(kDataPacketBytes);
+  in.read(reinterpret_cast<char*>(second.data()), 2);
+  return in.gcount() == 2 && second[0] == 0xFF && second[1] == 0xEE;
 }
 
 }  // namespace
@@ -49,7 +79,12 @@ Result<std::unique_ptr<PacketFile>> openPacketFile(const std::string& path) {
                      path, in.gcount());
   }
   if (isPcap(magic)) return openPcapFile(path);
-  if (magic[0] == 0xFF && magic[1] == 0xEE) return openRawPacketFile(path);
+  if (const Packer* packer = packerOf(magic)) {
+    return makeError(ErrorCode::InvalidInput,
+                     "{}: packed with {}; unzip it first ({} FILE) and give what comes out", path,
+                     packer->name, packer->unpack);
+  }
+  if (isRaw(in, magic)) return openRawPacketFile(path);
   return makeError(ErrorCode::InvalidInput,
                    "{}: neither a pcap capture nor a file of 1206-byte LiDAR packets (it starts "
                    "with {:02X} {:02X} {:02X} "

@@ -4,8 +4,8 @@
 
 namespace kiln::velodyne {
 
-/// A capture as tcpdump and Wireshark write it (pcap or pcapng, either byte order), through
-/// libpcap. Frames that carry no UDP are passed over. Error: see openPacketFile.
+/// The UDP packets of a capture, IPv4 fragments joined; frames that carry none are passed over.
+/// Error: see openPacketFile.
 [[nodiscard]] Result<std::unique_ptr<PacketFile>> openPcapFile(const std::string& path);
 
 }  // namespace kiln::velodyne

@@ -1,13 +1,15 @@
 #include "robot/drivers/velodyne/link/raw_packet_file.h"
 
+#include <algorithm>
 #include <fstream>
 
-#include "robot/drivers/velodyne/codec/vlp16_decoder.h"
+#include "robot/drivers/velodyne/codec/vlp16_packet.h"
 
 namespace kiln::velodyne {
 namespace {
 
-constexpr std::int64_t kHour_us = 3'600'000'000;
+/// Bytes are looked at this far ahead for the next packet behind a stray one.
+constexpr std::size_t kLookAhead = 64 * kDataPacketBytes;
 
 class RawPacketFile final : public PacketFile {
  public:
@@ -18,58 +20,64 @@ class RawPacketFile final : public PacketFile {
   const std::string& path() const override { return path_; }
 
  private:
-  [[nodiscard]] Duration timeOf(const std::vector<std::uint8_t>& payload);
+  void fill(std::size_t bytes);
+  [[nodiscard]] bool flagAt(std::size_t at) const {
+    return at + 1 < buffer_.size() && buffer_[at] == 0xFF && buffer_[at + 1] == 0xEE;
+  }
+  [[nodiscard]] std::size_t strayBytes();
 
   std::string path_;
   std::ifstream in_;
-  std::uint64_t packet_ = 0;
-  Duration time_{};
-  std::optional<std::uint32_t> last_us_;
+  std::vector<std::uint8_t> buffer_;  ///< from the next packet on
+  std::uint64_t packet_ = 0, at_ = 0;
 };
 
 Result<void> RawPacketFile::open() {
   in_ = std::ifstream(path_, std::ios::binary);
-  packet_ = 0;
-  time_ = Duration{};
-  last_us_.reset();
+  buffer_.clear();
+  packet_ = at_ = 0;
   if (!in_)
     return makeError(ErrorCode::NotFound,
                      "{}: cannot be opened; check the path and its permissions", path_);
   return {};
 }
 
-/// Time by the sensor's own clock; a packet that is not a VLP-16's gets its predecessor's (the
-/// decoder refuses it).
-Duration RawPacketFile::timeOf(const std::vector<std::uint8_t>& payload) {
-  const auto packet = parseVlp16Packet(payload);
-  if (!packet) return time_;
-  if (last_us_) {
-    std::int64_t d = static_cast<std::int64_t>(packet->timestamp_us) - *last_us_;
-    if (d < -kHour_us / 2) d += kHour_us;
-    const std::int64_t period =
-        static_cast<std::int64_t>(Vlp16Decoder::packetPeriod_us(packet->mode));
-    if (d < 0 || d > 1'000'000) d = period;  // joined recordings: go on at once
-    time_ += std::chrono::microseconds(d);
+void RawPacketFile::fill(std::size_t bytes) {
+  if (buffer_.size() >= bytes || !in_) return;
+  const std::size_t had = buffer_.size();
+  buffer_.resize(bytes);
+  in_.read(reinterpret_cast<char*>(buffer_.data() + had),
+           static_cast<std::streamsize>(bytes - had));
+  buffer_.resize(had + static_cast<std::size_t>(in_.gcount()));
+}
+
+/// How many bytes to the next packet: 0 where one stands, or a damaged one of the right length.
+std::size_t RawPacketFile::strayBytes() {
+  fill(2 * kDataPacketBytes);
+  if (flagAt(0) || flagAt(kDataPacketBytes) || buffer_.size() <= kDataPacketBytes) return 0;
+  fill(kLookAhead);
+  for (std::size_t at = 1; at + kDataPacketBytes <= buffer_.size(); ++at) {
+    if (flagAt(at) && parseVlp16Packet(std::span(buffer_).subspan(at, kDataPacketBytes))) return at;
   }
-  last_us_ = packet->timestamp_us;
-  return time_;
+  return buffer_.size();
 }
 
 Result<std::optional<RecordedPacket>> RawPacketFile::next() {
-  RecordedPacket out;
-  out.payload.resize(kDataPacketBytes);
-  in_.read(reinterpret_cast<char*>(out.payload.data()),
-           static_cast<std::streamsize>(kDataPacketBytes));
-  const auto got = static_cast<std::size_t>(in_.gcount());
-  if (got == 0) return std::nullopt;
-  if (got < kDataPacketBytes) {
+  const std::size_t stray = strayBytes();
+  if (buffer_.empty()) return std::nullopt;
+  const std::size_t size = stray > 0 ? stray : kDataPacketBytes;
+  if (buffer_.size() < size) {
     return makeError(
         ErrorCode::Truncated,
         "{}: cut off in packet {} at byte {}: {} of {} bytes; copy or record the file again", path_,
-        packet_ + 1, packet_ * kDataPacketBytes, got, kDataPacketBytes);
+        packet_ + 1, at_, buffer_.size(), kDataPacketBytes);
   }
   ++packet_;
-  out.time = timeOf(out.payload);
+  at_ += size;
+  RecordedPacket out;
+  const auto end = buffer_.begin() + static_cast<std::ptrdiff_t>(size);
+  out.payload.assign(buffer_.begin(), end);
+  buffer_.erase(buffer_.begin(), end);
   return out;
 }
 

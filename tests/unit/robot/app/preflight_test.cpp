@@ -100,6 +100,10 @@ TEST(Preflight, WarnsOfWhatDoesNotForbidAStart) {
   };
   const std::vector<Case> cases = {
       {"Arm safety", [](auto& in) { in.arm_safety = ArmSafetyMode::Reduced; }},
+      {"LiDAR",
+       [](auto& in) {
+         in.lidar_defects = {"6 packets lost", 0.12};
+       }},
       {"Clocks", [](auto& in) { in.clocks[1].error_s.reset(); }},
       {"Controller limits",
        [](auto& in) {
@@ -131,6 +135,9 @@ TEST(Preflight, SaysWhatWasMeasured) {
   EXPECT_EQ(rowOf(in, "Pump current").detail, "left pump draws 3.2 A at rest");
   in.pumps->duty = {1.0, 0.0};  // sprayed by hand
   EXPECT_EQ(rowOf(in, "Pump current").detail, "3.2 and 0.0 A, spraying");
+  in.lidar_defects = {"1 refused (data packet has 5 bytes)", 0.0};
+  EXPECT_EQ(rowOf(in, "LiDAR").detail, "0.10 s old; 1 refused (data packet has 5 bytes)");
+  EXPECT_FALSE(rowOf(in, "LiDAR").warn);
   in.map_fit = MapFit{0.31, 0.02};
   EXPECT_EQ(rowOf(in, "Map against scan").detail, "31 % fits, 20 mm rms");
 }

@@ -5,7 +5,7 @@
 
 #include "robot/drivers/velodyne/device/capture_check.h"
 #include "tests/support/data_dir.h"
-#include "tests/unit/robot/drivers/velodyne/synthetic_packets.h"
+#include "tests/support/synthetic_packets.h"
 
 namespace kiln::velodyne {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "tests/unit/robot/drivers/velodyne/synthetic_packets.h"
+#include "tests/support/synthetic_packets.h"
 
 namespace kiln::velodyne {
 namespace {
