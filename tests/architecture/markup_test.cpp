@@ -33,12 +33,13 @@ std::vector<std::string> markupViolations(const std::string& path, const std::st
     const char* instead;
   };
   static const std::vector<Rule> rules{
-      {std::regex(R"(\bQLabel\s*[*({;]|new QLabel|public QLabel)"), "use Label, which is plain"},
+      {std::regex(R"(\bQLabel\s*[*(;]|\bQLabel\s+\w+\s*[;{(=]|new QLabel|public QLabel)"),
+       "use Label, which is plain"},
       {std::regex(R"((?:->|\.|\s)setToolTip\s*\(|QToolTip::showText)"), "use setTip or showTip"},
       {std::regex(R"(setHtml\s*\(|insertHtml|appendHtml|QTextBrowser|QMessageBox|QStaticText|)"
                   R"(setWhatsThis|Qt::AutoText|toHtmlEscaped)"),
        "use Markup and Label"},
-      {std::regex(R"(markup\s*\(\s*(?!tr\("|QStringLiteral\("|"))"),
+      {std::regex(R"(markup\s*\((?!\s*(?:tr\("|QStringLiteral\("|")))"),
        "the pattern of markup() is a literal"},
   };
   std::vector<std::string> found;

@@ -49,6 +49,7 @@ MacrosTile::MacrosTile(const Ui& ui, HoldToRun& hold, QWidget* parent)
   scroll->setSizeAdjustPolicy(QAbstractScrollArea::AdjustToContents);
   scroll->setMinimumHeight(kListMin_px);
   scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  scroll->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOn);  // one that appears moves the rows
   macros->setAutoFillBackground(false);
   scroll->viewport()->setAutoFillBackground(false);
   note_ = new Label;

@@ -156,7 +156,7 @@ TEST_F(TeleopTileTest, AMacrosStepIsCountedAsTheRobotCountsIt) {
 TEST_F(TeleopTileTest, NoWordMovesAControl) {
   emit link.macros({{"arm park", "", 6.0, 0.0, ""}, {"spray fire 1", "", 18.0, 0.9, "near"}});
   feed();
-  QCoreApplication::processEvents();
+  for (int i = 0; i < 5; ++i) QCoreApplication::processEvents();  // new rows are laid out in steps
   const auto places = [&] {
     std::vector<QRect> out;
     for (const QWidget* control : window.findChildren<QWidget*>()) {
