@@ -69,6 +69,9 @@ class ConfigArchive {
 [[nodiscard]] Result<void> loadYaml(const std::string& path, const ConfigNode& root);
 [[nodiscard]] Result<void> loadYamlText(const std::string& text, const std::string& name,
                                         const ConfigNode& root);
+/// One value over those in `root`: "base.max_speed_mps=1.5". Error: as loadYaml(), or what is wrong
+/// with the text.
+[[nodiscard]] Result<void> overrideYaml(const std::string& key_and_value, const ConfigNode& root);
 /// The effective configuration as YAML.
 [[nodiscard]] std::string dumpYaml(const ConfigNode& root);
 /// A Markdown table: key, default, unit, range, meaning.
@@ -77,6 +80,10 @@ class ConfigArchive {
 template <class T>
 [[nodiscard]] Result<void> loadConfig(const std::string& path, T& config) {
   return loadYaml(path, ConfigNode{[&config](ConfigArchive& a) { config.visit(a); }});
+}
+template <class T>
+[[nodiscard]] Result<void> overrideConfig(const std::string& key_and_value, T& config) {
+  return overrideYaml(key_and_value, ConfigNode{[&config](ConfigArchive& a) { config.visit(a); }});
 }
 template <class T>
 [[nodiscard]] std::string dumpConfig(T config) {

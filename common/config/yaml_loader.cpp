@@ -151,6 +151,23 @@ Result<void> loadYamlText(const std::string& text, const std::string& name,
   }
 }
 
+Result<void> overrideYaml(const std::string& key_and_value, const ConfigNode& root) {
+  const std::size_t equals = key_and_value.find('=');
+  if (equals == std::string::npos || equals == 0)
+    return makeError(ErrorCode::InvalidInput,
+                     "'{}' sets nothing; write KEY=VALUE, as in base.max_speed_mps=1.5",
+                     key_and_value);
+  std::string yaml = "{";
+  int depth = 1;
+  for (const char c : key_and_value.substr(0, equals)) {
+    yaml += c == '.' ? std::string(": {") : std::string(1, c);
+    depth += c == '.' ? 1 : 0;
+  }
+  yaml += ": " + key_and_value.substr(equals + 1);
+  yaml.append(static_cast<std::size_t>(depth), '}');
+  return loadYamlText(yaml, key_and_value, root);
+}
+
 Result<void> loadYaml(const std::string& path, const ConfigNode& root) {
   std::error_code ec;
   if (!std::filesystem::is_regular_file(path, ec)) {

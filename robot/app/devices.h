@@ -21,9 +21,8 @@ struct Devices {
   ThermalCamera* thermal = nullptr;
   RgbCamera* operator_camera = nullptr;
   std::function<bool()> connected = [] { return false; };
-  std::function<std::uint32_t()> resets = [] {
-    return 0U;
-  };  ///< how often the robot was carried back
+  /// How often the robot was carried back; nullopt: not heard yet.
+  std::function<std::optional<std::uint32_t>()> resets = [] { return std::optional(0U); };
 };
 
 }  // namespace kiln

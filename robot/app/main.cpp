@@ -32,11 +32,12 @@ struct Arguments {
   std::string record_dir;
   double replay_speed = 1.0;
   bool record = false;
-  double heat_threshold_c = 0.0;
+  std::vector<std::string> overrides;
   bool exit_when_done = false;
   double until_s = 0.0;
   bool print_config = false;
   bool print_reference = false;
+  bool list_missions = false;
   int log_level = 2;
 };
 
@@ -51,20 +52,19 @@ void addOptions(CLI::App& app, Arguments& a) {
                  "show a recorded VLP-16 capture: pcap, or raw 1206-byte packets");
   app.add_option("--thermal", a.sources.thermal,
                  "show recorded Lepton stills from a folder, at 8.77 Hz");
-  app.add_option("--heat-threshold-c", a.heat_threshold_c,
-                 "a heat source is hotter than this (default: the config's)")
-      ->check(CLI::Range(1.0, 400.0));
+  app.add_option("--set", a.overrides,
+                 "KEY=VALUE over the config, e.g. fire.heat.detector.threshold_c=60; may be "
+                 "repeated");
   app.add_option("--localization", a.localization, "how to locate (default: the config's)")
       ->check(CLI::IsMember({"surfel_map", "walls", "odometry"}));
   app.add_flag("--flat-ground", a.flat_ground,
                "the arena has no ramp and no edge (kiln-sim --world fire_flat; with "
                "--localization walls, the shipped map has both)");
-  app.add_option(
-         "--mission", a.robot.mission,
-         "fire, or mapping: a round to record for kiln-eval map (locates by walls, needs no "
-         "map)")
-      ->default_val("fire")
-      ->check(CLI::IsMember({"fire", "mapping"}));
+  app.add_option("--mission", a.robot.mission, missionHelp())
+      ->default_val(missionNames().front())
+      ->check(CLI::IsMember(missionNames()));
+  app.add_flag("--list-missions", a.list_missions,
+               "print each mission's name, world and meaning, and end");
   app.add_flag("--start", a.robot.start, "start the mission as soon as all checks pass");
   app.add_flag("--resume", a.robot.resume, "go on from the checkpoint in the state folder");
   app.add_flag("--lockstep", a.robot.lockstep,
@@ -117,8 +117,11 @@ Result<RobotSettings> loadSettings(const Arguments& a) {
     file = *found;
   }
   if (auto loaded = loadConfig(file, settings); !loaded) return tl::make_unexpected(loaded.error());
-  if (a.heat_threshold_c > 0.0) settings.heat_detector.threshold_c = a.heat_threshold_c;
-  if (a.robot.mission == "mapping") settings.localization.method = "walls";  // there is no map yet
+  for (const std::string& override_ : a.overrides)
+    if (auto set = overrideConfig(override_, settings); !set)
+      return tl::make_unexpected(set.error());
+  const std::string method = findMission(a.robot.mission)->default_localization;
+  if (!method.empty()) settings.localization.method = method;
   if (!a.localization.empty()) settings.localization.method = a.localization;
   settings.flat_ground = settings.flat_ground || a.flat_ground;
   return settings;
@@ -203,7 +206,14 @@ Result<void> checkSources(const Arguments& a) {
   return {};
 }
 
+int listMissions() {
+  for (const MissionKind& kind : missionKinds())
+    fmt::print("{}\t{}\t{}\n", kind.name, kind.default_world, kind.doc);
+  return kSuccess;
+}
+
 int run(Arguments a) {
+  if (a.list_missions) return listMissions();
   if (a.print_config || a.print_reference) return printSettings(a);
   if (auto checked = checkSources(a); !checked) return fail(checked.error());
   auto settings = loadSettings(a);

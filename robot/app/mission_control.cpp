@@ -110,18 +110,6 @@ CommandAck MissionControl::executeDiscrete(const Command& command, Stamp now) {
                pose->X_map_base.x_m, pose->X_map_base.y_m, pose->X_map_base.yaw_rad * 180.0 / M_PI);
     return done(command);
   }
-  if (const auto* nudge = std::get_if<NudgePlace>(&body)) {
-    const auto moved = parts_.mission.nudgePlace(nudge->place, nudge->by);
-    return moved ? done(command)
-                 : answer(command, AckOutcome::Refused, "nudge", moved.error().message);
-  }
-  if (const auto* despite = std::get_if<ContinueDespite>(&body)) {
-    const auto on = parts_.mission.continueDespite(despite->subject, command.operator_name, now);
-    if (!on) return answer(command, AckOutcome::Refused, "nothing_objects", on.error().message);
-    logger("mission")->warn("{} goes on despite the check of {}", command.operator_name,
-                            despite->subject);
-    return done(command);
-  }
   if (const auto* alarm = std::get_if<AcknowledgeAlarm>(&body)) {
     if (parts_.alarms.acknowledge(alarm->id)) return done(command);
     return answer(command, AckOutcome::Refused, "no_such_alarm",
@@ -133,8 +121,10 @@ CommandAck MissionControl::executeDiscrete(const Command& command, Stamp now) {
     parts_.set_recording(recording->on);
     return done(command);
   }
-  return answer(command, AckOutcome::Refused, "unknown_command",
-                "this robot does not know the command");
+  const auto obeyed = parts_.host.mission().command(body, command.operator_name, now);
+  if (!obeyed) return answer(command, AckOutcome::Refused, "mission", obeyed.error().message);
+  logger("mission")->warn("{} by {}", commandName(body), command.operator_name);
+  return done(command);
 }
 
 CommandAck MissionControl::changeState(const Command& command, const ChangeState& change,
@@ -212,7 +202,7 @@ void MissionControl::holdMission(HoldReason reason, const std::string& text, Sta
 
 void MissionControl::onReset(Stamp now) {
   endHandWork(now);
-  parts_.mission.onReset(now);
+  parts_.host.onReset(now);
   logger("mission")->warn("reset: robot is back at its start, clock runs on");
 }
 
@@ -221,8 +211,7 @@ void MissionControl::step(Stamp now) {
     parts_.macros.poll(now, parts_.authority.held(HoldKind::Macro, now));
     if (!parts_.macros.running()) parts_.authority.endHold(HoldKind::Macro);
   }
-  parts_.host.check();
-  parts_.mission.tick(now);  // held, it keeps books and moves nothing
+  parts_.host.tick(now);
 }
 
 }  // namespace kiln

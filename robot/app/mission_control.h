@@ -9,7 +9,6 @@
 #include "robot/control/arm_controller.h"
 #include "robot/hal/arena.h"
 #include "robot/missions/common/mission_host.h"
-#include "robot/missions/fire/fire_mission.h"
 #include "robot/safety/authority.h"
 #include "robot/skills/macro_runner.h"
 
@@ -21,7 +20,6 @@ namespace kiln {
 class MissionControl final : public Authority::Handler {
  public:
   struct Parts {
-    FireMission& mission;
     MissionHost& host;
     Authority& authority;
     Teleop& teleop;

@@ -3,29 +3,20 @@
 #include <string>
 #include <vector>
 
-#include "common/core/error.h"
 #include "common/geom/pose.h"
-#include "common/model/fire.h"
-#include "common/model/fsm.h"
-#include "common/model/place_check.h"
+#include "robot/missions/common/mission_host.h"
 
 namespace kiln {
 
-/// What the robot says of its mission afterwards. Deterministic in lockstep: robot time only.
+/// What the robot says of its mission afterwards: the host's log, its track, and what the mission
+/// adds. Deterministic in lockstep: robot time only.
 class MissionReport {
  public:
-  MissionReport(std::string mission, Stamp start) : mission_(std::move(mission)), start_(start) {}
+  /// @param created  counts as the start of a mission that never began.
+  explicit MissionReport(Stamp created) : created_(created) {}
 
-  /// Call once a tick: picks up every transition from the bounded history.
-  void observe(const FsmStatus& status);
-  struct HeatRecord {
-    Stamp stamp;                ///< of the last image in the estimate
-    Eigen::Vector3d p_thermal;  ///< estimate in the believed camera frame at that stamp, m
-    double range_m = 0.0, baseline_range_m = 0.0;
-    int views = 0;
-    std::string place;
-  };
-  void addHeatEstimate(const HeatRecord& record);
+  /// Another mission: its track begins anew.
+  void begin() { track_.clear(); }
   /// Where the robot believed to be, five times a second.
   struct TrackRecord {
     Stamp stamp;
@@ -33,29 +24,14 @@ class MissionReport {
     Pose2 X_odom_base;  ///< wheel odometry alone
     bool located = false;
     bool indoor = false;  ///< map in use
+    int resets = 0;       ///< before it
   };
   void addTrack(const TrackRecord& record);
-  /// Configured against sensed; each answer once.
-  void addPlaceCheck(const PlaceCheck& check);
-  void setTotals(double litres_est, int resets) {
-    litres_est_ = litres_est;
-    resets_ = resets;
-  }
-  [[nodiscard]] std::string toJson(Stamp now) const;
-  /// @return Storage error if the disk refuses.
-  [[nodiscard]] Result<void> write(const std::string& path, Stamp now) const;
+  [[nodiscard]] std::string toJson(const MissionHost& host, int resets, Stamp now) const;
 
  private:
-  std::string mission_;
-  Stamp start_;
-  std::vector<FsmHistoryEntry> states_;
-  std::vector<HeatRecord> heat_;
+  Stamp created_;
   std::vector<TrackRecord> track_;
-  std::vector<int> track_resets_;  ///< of each record
-  std::vector<PlaceCheck> checks_;
-  FsmStatus last_;
-  double litres_est_ = 0.0;
-  int resets_ = 0;
 };
 
 }  // namespace kiln

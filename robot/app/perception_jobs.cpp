@@ -54,28 +54,18 @@ void PerceptionJobs::Config::visit(ConfigArchive& a) {
 
 PerceptionJobs::PerceptionJobs(Config config, Executor& executor, const RobotGeometry& robot,
                                const StateHistory& history, const SelfFilter& self_filter,
-                               const ScanLocator& locator, HeatDetector& detector,
-                               double heat_latency_s, const ObstacleMemory::Config& obstacles)
+                               const ScanLocator& locator, const ObstacleMemory::Config& obstacles)
     : config_(config),
       executor_(executor),
       robot_(robot),
       history_(history),
       self_filter_(self_filter),
       locator_(locator),
-      detector_(detector),
-      heat_latency_(fromSeconds(heat_latency_s)),
       obstacles_(obstacles) {}
 
 void PerceptionJobs::onScan(PointCloudPtr scan) { scans_.put(std::move(scan)); }
 
-void PerceptionJobs::onThermal(ThermalImagePtr image) { images_.push(std::move(image)); }
-
 void PerceptionJobs::dispatch(Stamp now, Localizer& localizer, bool moving) {
-  dispatchScan(now, localizer, moving);
-  dispatchThermal();
-}
-
-void PerceptionJobs::dispatchScan(Stamp now, Localizer& localizer, bool moving) {
   const auto scan = scans_.takeFresh();
   if (!scan) return;
   last_scan_ = endOf(**scan);
@@ -120,33 +110,14 @@ PerceptionJobs::ScanResult PerceptionJobs::processScan(
   return result;
 }
 
-void PerceptionJobs::dispatchThermal() {
-  const auto image = images_.pop();
-  if (!image) return;
-  last_thermal_ = (*image)->stamp;
-  const bool posted = executor_.post(
-      {"heat", heat_latency_, [this, image = *image](std::stop_token) -> Delivery {
-         auto result = std::make_shared<HeatResult>(HeatResult{image, detector_.detect(*image)});
-         return [this, result] { heat_results_.push(std::move(*result)); };
-       }});
-  if (!posted) ++refused_jobs_;
-}
-
 std::vector<PerceptionJobs::ScanResult> PerceptionJobs::takeScans() {
   auto results = scan_results_.drain();
   if (!results.empty()) last_cloud_ = results.back().end;
   return results;
 }
 
-std::vector<PerceptionJobs::HeatResult> PerceptionJobs::takeHeat() {
-  auto results = heat_results_.drain();
-  if (!results.empty()) last_heat_ = results.back().image->stamp;
-  return results;
-}
-
 std::uint64_t PerceptionJobs::droppedFrames() const {
-  return scans_.overwritten() + images_.dropped() + scan_results_.dropped() +
-         heat_results_.dropped() + refused_jobs_;
+  return scans_.overwritten() + scan_results_.dropped() + refused_jobs_;
 }
 
 }  // namespace kiln

@@ -7,7 +7,6 @@
 #include "common/core/bounded_queue.h"
 #include "common/core/executor.h"
 #include "common/core/latest_value.h"
-#include "common/model/fire.h"
 #include "common/model/sensor.h"
 #include "robot/app/state_history.h"
 #include "robot/localization/localizer.h"
@@ -15,13 +14,12 @@
 #include "robot/perception/cloud/obstacle_memory.h"
 #include "robot/perception/cloud/pose_track.h"
 #include "robot/perception/cloud/self_filter.h"
-#include "robot/perception/thermal/heat_detector.h"
 
 namespace kiln {
 
-/// Carries sensor frames to the perception functions and their results back: sinks run on device
-/// threads and only fill mailboxes, dispatch() and the take functions belong to the mission thread,
-/// the work runs on the pool.
+/// Carries scans to the perception functions that every mission needs and their results back: sinks
+/// run on device threads and only fill mailboxes, dispatch() and the take functions belong to the
+/// mission thread, the work runs on the pool.
 class PerceptionJobs {
  public:
   struct Config {
@@ -39,33 +37,22 @@ class PerceptionJobs {
     /// Obstacles in the scan; nullopt when the robot's motion during the scan is not known.
     std::optional<ObstacleScan> obstacles;
   };
-  struct HeatResult {
-    ThermalImagePtr image;
-    HeatDetections detections;
-  };
   PerceptionJobs(Config config, Executor& executor, const RobotGeometry& robot,
                  const StateHistory& history, const SelfFilter& self_filter,
-                 const ScanLocator& locator, HeatDetector& detector, double heat_latency_s,
-                 const ObstacleMemory::Config& obstacles);
+                 const ScanLocator& locator, const ObstacleMemory::Config& obstacles);
 
-  void onScan(PointCloudPtr scan);        ///< any thread
-  void onThermal(ThermalImagePtr image);  ///< any thread
+  void onScan(PointCloudPtr scan);  ///< any thread
   /// Posts jobs for what has arrived. `localizer` gives the prior; `moving` chooses how often to
   /// locate.
   void dispatch(Stamp now, Localizer& localizer, bool moving);
   [[nodiscard]] std::vector<ScanResult> takeScans();
-  [[nodiscard]] std::vector<HeatResult> takeHeat();
-  /// Stamps of the newest frames that came from the sensors (a scan: of its last point) ...
+  /// Stamp of the newest scan that came from the sensor, of its last point ...
   [[nodiscard]] std::optional<Stamp> lastScan() const { return last_scan_; }
-  [[nodiscard]] std::optional<Stamp> lastThermal() const { return last_thermal_; }
-  /// ... and of those whose results were taken: while a sensor delivers, the two go together.
+  /// ... and of the newest whose result was taken: while the sensor delivers, the two go together.
   [[nodiscard]] std::optional<Stamp> lastCloud() const { return last_cloud_; }
-  [[nodiscard]] std::optional<Stamp> lastHeat() const { return last_heat_; }
   [[nodiscard]] std::uint64_t droppedFrames() const;
 
  private:
-  void dispatchScan(Stamp now, Localizer& localizer, bool moving);
-  void dispatchThermal();
   [[nodiscard]] ScanResult processScan(const PointCloud& scan,
                                        const std::optional<AlignmentPrior>& prior) const;
 
@@ -75,14 +62,10 @@ class PerceptionJobs {
   const StateHistory& history_;
   const SelfFilter& self_filter_;
   const ScanLocator& locator_;
-  HeatDetector& detector_;
-  Duration heat_latency_;
   ObstacleMemory::Config obstacles_;
   LatestValue<PointCloudPtr> scans_;
-  BoundedQueue<ThermalImagePtr> images_{4, DropPolicy::Oldest};
   BoundedQueue<ScanResult> scan_results_{4, DropPolicy::Oldest};
-  BoundedQueue<HeatResult> heat_results_{8, DropPolicy::Oldest};
-  std::optional<Stamp> last_scan_, last_thermal_, last_cloud_, last_heat_, last_fix_try_;
+  std::optional<Stamp> last_scan_, last_cloud_, last_fix_try_;
   std::uint64_t refused_jobs_ = 0;  ///< frames whose kind was still being worked on
 };
 

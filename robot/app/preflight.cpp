@@ -47,33 +47,12 @@ Check lidarCheck(const PreflightInputs& in, const PreflightLimits& limits) {
   return warn("LiDAR", age.detail, "clouds have holes: check its cable, or record again");
 }
 
-Check thermalCheck(const PreflightInputs& in, const PreflightLimits& limits) {
-  Check age =
-      ageCheck("Thermal camera", in.thermal_age_s, limits.thermal_age_s, "check its USB cable");
-  if (!age.ok || in.thermal_usable) return age;
-  return fail("Thermal camera",
-              in.thermal_refusal.empty() ? "its pictures are refused" : in.thermal_refusal,
-              "wait for the shutter; else start the camera anew");
-}
-
-/// Empty unless `sensor` delivers and its product does not.
-std::string late(const char* sensor, const char* product, std::optional<double> sensor_age_s,
-                 double sensor_limit_s, std::optional<double> product_age_s, double limit_s) {
-  if (!sensor_age_s || *sensor_age_s > sensor_limit_s) return {};
-  if (!product_age_s) return fmt::format("no {} yet although the {} delivers", product, sensor);
-  if (*product_age_s <= limit_s) return {};
-  return fmt::format("no {} for {:.1f} s although the {} delivers", product, *product_age_s,
-                     sensor);
-}
-
 Check perceptionCheck(const PreflightInputs& in, const PreflightLimits& limits) {
   const std::string name = "Perception";
   if (const std::string owed = lateProduct(in, limits); !owed.empty())
     return fail(name, owed, "restart the daemon; if it stays, the machine is too slow");
-  const auto age = [](std::optional<double> age_s) {
-    return age_s ? fmt::format("{:.2f} s", std::max(0.0, *age_s)) : std::string("none");
-  };
-  return ok(name, fmt::format("cloud {}, heat {} old", age(in.cloud_age_s), age(in.heat_age_s)));
+  return ok(name, in.cloud_age_s ? fmt::format("cloud {:.2f} s old", std::max(0.0, *in.cloud_age_s))
+                                 : std::string("no cloud yet"));
 }
 
 /// What would make an edge of the tree appear.
@@ -205,10 +184,9 @@ Check storageCheck(const PreflightInputs& in) {
 void PreflightLimits::visit(ConfigArchive& a) {
   a.field("device_age_s", device_age_s, "s", 0.01, 5, "oldest allowed arm, base or pump state");
   a.field("lidar_age_s", lidar_age_s, "s", 0.1, 10, "oldest allowed LiDAR scan");
-  a.field("thermal_age_s", thermal_age_s, "s", 0.1, 10, "oldest allowed thermal image");
   a.field("lidar_missing", lidar_missing, "", 0, 1, "share of LiDAR packets that may be missing");
   a.field("product_age_s", product_age_s, "s", 0.2, 10,
-          "oldest allowed cloud or heat detection while its sensor delivers");
+          "oldest allowed cloud while the LiDAR delivers");
   a.field("battery_min_v", battery_min_v, "V", 0, 60, "start no mission below");
   a.field("clock_error_s", clock_error_s, "s", 0.001, 1,
           "largest error of a station's or device's clock");
@@ -227,7 +205,6 @@ std::vector<Check> preflight(const PreflightInputs& in, const PreflightLimits& l
           ageCheck("Pumps", in.pumps_age_s, limits.device_age_s, "check the pump controller"),
           pumpCurrentCheck(in, limits),
           lidarCheck(in, limits),
-          thermalCheck(in, limits),
           perceptionCheck(in, limits),
           transformsCheck(in),
           clocksCheck(in, limits),
@@ -240,12 +217,10 @@ std::vector<Check> preflight(const PreflightInputs& in, const PreflightLimits& l
 }
 
 std::string lateProduct(const PreflightInputs& in, const PreflightLimits& limits) {
-  std::string cloud = late("LiDAR", "cloud", in.lidar_age_s, limits.lidar_age_s, in.cloud_age_s,
-                           limits.product_age_s);
-  if (!cloud.empty()) return cloud;
-  // A picture that the shutter spoils is a product too: it is delivered, and refused.
-  return late("thermal camera", "heat detection", in.thermal_age_s, limits.thermal_age_s,
-              in.heat_age_s, limits.thermal_age_s + limits.product_age_s);
+  if (!in.lidar_age_s || *in.lidar_age_s > limits.lidar_age_s) return {};
+  if (!in.cloud_age_s) return "no cloud yet although the LiDAR delivers";
+  if (*in.cloud_age_s <= limits.product_age_s) return {};
+  return fmt::format("no cloud for {:.1f} s although the LiDAR delivers", *in.cloud_age_s);
 }
 
 bool allOk(const std::vector<Check>& checks) {

@@ -28,13 +28,11 @@ struct MapFit {
 /// never seen.
 struct PreflightInputs {
   bool devices_connected = false;
-  std::optional<double> arm_age_s, base_age_s, pumps_age_s, lidar_age_s, thermal_age_s;
-  /// Age of what perception has delivered last, by the stamp of the frame that it was made of.
-  std::optional<double> cloud_age_s, heat_age_s;
+  std::optional<double> arm_age_s, base_age_s, pumps_age_s, lidar_age_s;
+  /// Age of the newest cloud that perception has delivered, by the stamp of its scan.
+  std::optional<double> cloud_age_s;
   LidarDefects lidar_defects;
   ArmSafetyMode arm_safety = ArmSafetyMode::Normal;
-  bool thermal_usable = true;
-  std::string thermal_refusal;
   PoseHealth pose_health = PoseHealth::Lost;
   double battery_v = 0.0;
   bool storage_ok = true;
@@ -54,9 +52,8 @@ struct PreflightInputs {
 struct PreflightLimits {
   double device_age_s = 0.2;
   double lidar_age_s = 0.5;
-  double thermal_age_s = 1.5;     ///< longer than one shutter freeze
   double lidar_missing = 0.01;    ///< of its packets; more: warn
-  double product_age_s = 1.0;     ///< of a cloud or heat detection whose sensor delivers
+  double product_age_s = 1.0;     ///< of a cloud while the LiDAR delivers
   double battery_min_v = 25.6;    ///< 3.2 V a cell
   double clock_error_s = 0.02;    ///< console.md section 3, row 15
   double pump_idle_a = 0.5;       ///< a pump at rest draws less
@@ -67,9 +64,9 @@ struct PreflightLimits {
   void visit(ConfigArchive& a);
 };
 
-/// One row a check: what was found, and what to do when it fails or warns. All must hold before a
-/// mission starts. The pumps' row looks at the current at rest: that a pump moves water shows only
-/// when it sprays.
+/// One row a check: what was found, and what to do when it fails or warns. All must hold, and those
+/// of the mission (Mission::checks), before a mission starts. The pumps' row looks at the current
+/// at rest: that a pump moves water shows only when it sprays.
 [[nodiscard]] std::vector<Check> preflight(const PreflightInputs& inputs,
                                            const PreflightLimits& limits);
 [[nodiscard]] bool allOk(const std::vector<Check>& checks);

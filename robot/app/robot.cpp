@@ -4,6 +4,8 @@
 #include <cmath>
 #include <filesystem>
 
+#include <fmt/ranges.h>
+
 #include "common/config/resources.h"
 #include "common/core/log.h"
 #include "common/robot_model/robot_calibration.h"
@@ -19,6 +21,7 @@ constexpr Duration kFirstFix = std::chrono::seconds(3);
 constexpr double kStandstill_mps = 0.02;
 constexpr double kStandstill_radps = 0.03;
 constexpr Duration kMissionPeriod = std::chrono::milliseconds(20);
+constexpr Duration kHealthPeriod = std::chrono::milliseconds(200);
 
 /// The nominal geometry with what a calibration found of this robot.
 Result<RobotGeometry> calibratedGeometry(const RobotGeometry& nominal,
@@ -61,52 +64,63 @@ Robot::Impl::Impl(const RobotSettings& settings_in, const RobotOptions& options_
       self_filter(robot, settings.self_filter),
       locator(std::move(location.locator)),
       map_layer(std::move(location.layer)),
-      detector(settings.heat_detector),
       localizer(settings.localization.localizerConfig(), arena, robot),
-      perception(settings.perception, executor, robot, history, self_filter, *locator, detector,
-                 settings.heat_detector.modelled_latency_s, settings.surroundings.obstacles),
+      perception(settings.perception, executor, robot, history, self_filter, *locator,
+                 settings.surroundings.obstacles),
       surroundings(settings.surroundings, fireBoxSizes(arena), executor),
       motion_watch(settings.motion_watch),
       drive(settings.drive_to, arena, base, [this] { return pose(); }),
       move_arm(settings.move_arm, robot, arena, arm, devices.arm, [this] { return pose(); }),
-      world(initialWorld(arena)),
-      sweep(settings.heat_localizer),
-      mission({clock, arena, robot, world, drive, move_arm, devices.arm, pumps, sweep,
-               [this] { return pose(); }, surroundings,
-               [this](std::size_t place, const Eigen::Vector3d& p_plate_map, double facing_rad) {
-                 arena.movePlace(place, p_plate_map, facing_rad);
-               }},
-              settings.fire, spray_in, {options.mission_uuid, checkpointPath(), options.mission}),
+      spray(spray_in),
       macros(settings.macros,
-             {robot, arena, move_arm, pumps, spray_in, [this] { return pose(); },
+             {robot, arena, move_arm, pumps, spray, [this] { return pose(); },
               [this] { return flange(); }, [this] { return authority.epoch().value(); }},
              std::move(macros_in)),
       teleop(settings.teleop, robot, arena, base, arm, pumps),
       authority(settings.authority),
-      host(mission.machine(), stop, [this](Stamp now) { mission.start(now); }),
-      control({mission, host, authority, teleop, macros, alarms, stop, devices.arm, arm,
-               devices.arena, [this] { return pose(); },
-               [this](Stamp now) { return gateSituation(now); },
-               [this](const Pose2& X_map_base) {
-                 localizer.reset(X_map_base, clock.now());
-                 forgetMatch();
-               },
-               options.recorder ? [recorder = options.recorder](bool on) { recorder->set(on); }
-                                : std::function<void(bool)>()}),
       telemetry({10.0, 10.0, 5.0, 1.0, settings.camera_rate_hz, settings.jpeg_quality}, link,
                 executor),
-      report(options.mission, clock.now()) {}
+      health([this] { return mission->machine().blocked(); },
+             [this](RobotStatus last) {
+               if (link) link->publish(std::move(last));
+             }),
+      report(clock.now()) {
+  belief.X_map_base = arena.start.pose();
+}
+
+Result<void> Robot::Impl::makeMission(Executor& executor) {
+  const MissionKind* kind = findMission(options.mission);
+  if (kind == nullptr)
+    return makeError(ErrorCode::InvalidInput, "there is no mission '{}'; known: {}",
+                     options.mission, fmt::join(missionNames(), ", "));
+  auto made = kind->make(
+      *settings.missions.find(kind->name), options.mission_uuid,
+      {clock, executor, arena, robot, belief, drive, move_arm, devices.arm, pumps, spray,
+       [this] { return pose(); }, surroundings, [this](Stamp stamp) { return flangeAt(stamp); },
+       [this](const ThermalImagePtr& image) { telemetry.publish(image); },
+       [this](HeatDetections found) { telemetry.publish(std::move(found)); }});
+  if (!made) return tl::make_unexpected(made.error());
+  mission = std::move(*made);
+  host = std::make_unique<MissionHost>(
+      *mission, belief, stop, clock,
+      CheckpointKeeper::Config{checkpointPath(), settings.checkpoint_period_s});
+  control = std::make_unique<MissionControl>(MissionControl::Parts{
+      *host, authority, teleop, macros, alarms, stop, devices.arm, arm, devices.arena,
+      [this] { return pose(); }, [this](Stamp now) { return gateSituation(now); },
+      [this](const Pose2& X_map_base) {
+        localizer.reset(X_map_base, clock.now());
+        forgetMatch();
+      },
+      options.recorder ? [recorder = options.recorder](bool on) { recorder->set(on); }
+                       : std::function<void(bool)>()});
+  return {};
+}
 
 void Robot::Impl::start(Executor& executor) {
   const Stamp now = clock.now();
   limits = controllerLimits(settings, robot);
-  mission.keepHolds([this] {
-    // Waiting for its sensors after a restart, a mission runs as far as the next restart goes.
-    return host.waiting() == MissionHost::Wait::None ? host.holds() : std::vector<MissionHold>{};
-  });
   log_sink = addLogSink([this](const LogRecord& record) { telemetry.onLog(record, clock.now()); });
   localizer.reset(options.start_pose.value_or(arena.start.pose()), now);
-  resets_seen = devices.resets();
   drive.setSurroundings(&surroundings);
   move_arm.setSurroundings(&surroundings);
   if (devices.lidar)
@@ -116,20 +130,31 @@ void Robot::Impl::start(Executor& executor) {
     }));
   if (devices.thermal)
     warnIfFailed(devices.thermal->start(
-        [this](ThermalImagePtr image) { perception.onThermal(std::move(image)); }));
+        [this](ThermalImagePtr image) { mission->onThermal(std::move(image)); }));
   executor.every(fromSeconds(1.0 / settings.arm.servo_rate_hz), "control", kPriorityControl,
                  [this](Stamp t) { controlTick(t); });
   executor.every(kMissionPeriod, "mission", kPriorityMission, [this](Stamp t) { missionTick(t); });
-  telemetry.publish(mission.machine().info());
+  executor.every(kHealthPeriod, "health", kPriorityMission, [this](Stamp t) { health.tick(t); });
+  telemetry.publish(mission->machine().info());
   telemetry.publish(macros.list());
   if (map_layer) telemetry.publish(map_layer);
   if (options.resume) {
-    beginReport(now);
-    localizer.reset(world.state().X_map_base, now);
-    host.restored(mission.restoredHolds(), now);
+    beginReport();
+    localizer.reset(belief.X_map_base, now);
   } else if (options.start) {
-    host.waitForStart();
+    host->waitForStart();
   }
+}
+
+Result<void> Robot::Impl::resume() {
+  const std::string path = checkpointPath();
+  const auto saved = loadCheckpoint(path);
+  if (!saved) return tl::make_unexpected(saved.error());
+  auto restored = host->restore(*saved, clock.now());
+  if (!restored)
+    return makeError(restored.error().code, "{}: {}; start without --resume", path,
+                     restored.error().message);
+  return {};
 }
 
 void Robot::Impl::controlTick(Stamp now) {
@@ -147,17 +172,21 @@ void Robot::Impl::missionTick(Stamp now) {
   watchMotion(now);
   obeyOperators(now);
   runChecks(now);
-  host.goOnWhenAllowed(control.situation(now), now);
-  control.step(now);
-  keepBooks(now);
+  belief.X_map_base = pose();
+  belief.pose_stamp = now;
+  host->goOnWhenAllowed(control->situation(now), now);
+  control->step(now);
+  updateReport();
   raiseAlarms(now);
   publish(now);
   record(now);
 }
 
 void Robot::Impl::readSensors(Stamp now) {
-  if (devices.resets() != resets_seen) {
-    resets_seen = devices.resets();
+  const std::optional<std::uint32_t> resets = devices.resets();
+  if (resets && !belief.device_resets) belief.device_resets = resets;
+  if (resets && resets != belief.device_resets) {  // now, or while this program was dead
+    belief.device_resets = resets;
     base.resetOdometry();
     history.clear();
     surroundings.clear();
@@ -165,7 +194,7 @@ void Robot::Impl::readSensors(Stamp now) {
     localizer.reset(arena.start.pose(), now);
     forgetMatch();
     carried = now;
-    control.onReset(now);
+    control->onReset(now);
     return;  // the old odometry is still in the tracking of this instant
   }
   const BaseTracking tracking = base.tracking();
@@ -189,21 +218,13 @@ void Robot::Impl::takePerception(Stamp now) {
     telemetry.publish(result.cloud);
   }
   surroundings.tick(base.tracking().X_odom_base);
-  for (auto& result : perception.takeHeat()) {
-    const auto sample = history.at(result.image->stamp);
-    if (sample) {
-      const Eigen::Isometry3d X_map_thermal = toIsometry(tracked.X_map_odom * sample->X_odom_base) *
-                                              robot.X_base_flange(sample->q) *
-                                              robot.X_flange_thermal.pose();
-      mission.onDetections(result.detections, X_map_thermal);
-      recordEstimate(result.detections.stamp, X_map_thermal);
-    }
-    last_heat = result.detections;
-    if (last_heat->usable) usable_heat = last_heat->stamp;
-    telemetry.publish(result.image);
-    telemetry.publish(std::move(result.detections));
-  }
   tracked = localizer.pose(now);
+}
+
+std::optional<Eigen::Isometry3d> Robot::Impl::flangeAt(Stamp stamp) const {
+  const auto sample = history.at(stamp);
+  if (!sample) return std::nullopt;
+  return toIsometry(tracked.X_map_odom * sample->X_odom_base) * robot.X_base_flange(sample->q);
 }
 
 std::string Robot::Impl::positionLost() const {
@@ -213,9 +234,9 @@ std::string Robot::Impl::positionLost() const {
 /// A mission does not go on from a place that nobody knows. After a reset the first scans decide.
 void Robot::Impl::watchPosition(Stamp now) {
   if (tracked.health != PoseHealth::Lost) carried.reset();
-  if (tracked.health != PoseHealth::Lost || !fsm.running || fsm.paused || fsm.terminal) return;
+  if (tracked.health != PoseHealth::Lost || host->phase() != MissionPhase::Running) return;
   if (carried && now - *carried < kFirstFix) return;
-  control.holdMission(HoldReason::PositionLost, positionLost(), now);
+  control->holdMission(HoldReason::PositionLost, positionLost(), now);
 }
 
 void Robot::Impl::placeScan(PerceptionJobs::ScanResult& result) {
@@ -260,10 +281,10 @@ GateSituation Robot::Impl::gateSituation(Stamp now) const {
 }
 
 void Robot::Impl::obeyOperators(Stamp now) {
-  control.observeStop(now);
+  control->observeStop(now);
   if (!link) return;
   const Authority::Step step =
-      authority.step(link->takeCommands(), link->operators(), control, now);
+      authority.step(link->takeCommands(), link->operators(), *control, now);
   for (const CommandAck& ack : step.acks) link->acknowledge(ack);
   for (const std::string& event : step.events) logger("operators")->info("{}", event);
 }
@@ -272,47 +293,36 @@ void Robot::Impl::runChecks(Stamp now) {
   lookAtDisk(now);
   const PreflightInputs found = preflightInputs(now);
   checks = preflight(found, settings.preflight);
+  for (Check& check : mission->checks(now)) checks.push_back(std::move(check));
   late_product = lateProduct(found, settings.preflight);
 }
 
 /// A mission has begun, here or before a restart of the program.
-void Robot::Impl::beginReport(Stamp now) {
-  mission_start = now;
-  report = MissionReport(options.mission, now);
+void Robot::Impl::beginReport() {
+  report.begin();
   ended.store(false);
   succeeded.store(false);
-  const FsmInfo info = mission.machine().info();
+  const FsmInfo info = mission->machine().info();
   if (link) link->setMissionUuid(info.mission_uuid);
   telemetry.publish(info);
 }
 
-void Robot::Impl::keepBooks(Stamp now) {
-  fsm = mission.machine().status(now);
-  if (host.starts() != starts_seen) {
-    starts_seen = host.starts();
-    beginReport(now);
+void Robot::Impl::updateReport() {
+  const FsmStatus& fsm = host->fsm();
+  if (host->starts() != starts_seen) {
+    starts_seen = host->starts();
+    beginReport();
   }
-  report.observe(fsm);
-  for (const PlaceCheck& check : mission.placeChecks()) report.addPlaceCheck(check);
-  report.setTotals(world.state().sprayed_l_est, world.state().resets);
   const BaseTracking tracking = base.tracking();
   report.addTrack({tracked.stamp, tracked.X_map_base, tracking.X_odom_base,
-                   tracked.health != PoseHealth::Lost, localizer.submap() == Submap::Indoor});
+                   tracked.health != PoseHealth::Lost, localizer.submap() == Submap::Indoor,
+                   belief.resets});
   if (fsm.terminal && !ended.load()) {
     succeeded.store(fsm.success);
     ended.store(true);
     logger("mission")->info("mission ended: {}", fsm.success ? "success" : fsm.display_text);
   }
 }
-
-void Robot::Impl::recordEstimate(Stamp image, const Eigen::Isometry3d& X_map_thermal) {
-  const auto estimate = sweep.estimate();
-  if (!estimate || estimate->stamp != image) return;
-  report.addHeatEstimate({image, X_map_thermal.inverse() * estimate->p_map, estimate->range_m,
-                          estimate->baseline_range_m, estimate->views, estimate->place});
-}
-
-Result<void> Robot::Impl::restore(Stamp now) { return mission.resumeFrom(checkpointPath(), now); }
 
 Result<std::unique_ptr<Robot>> Robot::create(const RobotSettings& settings,
                                              const RobotOptions& options, Devices devices,
@@ -343,10 +353,10 @@ Result<std::unique_ptr<Robot>> Robot::create(const RobotSettings& settings,
                                      stop, std::move(*robot), std::move(*arena), *spray,
                                      std::move(*macros), std::move(*location));
   impl->base.setGeofence(std::make_shared<const Geofence>(std::move(*fence)));
+  if (auto made = impl->makeMission(executor); !made) return tl::make_unexpected(made.error());
   // Before anything runs: a checkpoint that is refused leaves nothing behind.
   if (options.resume) {
-    if (auto restored = impl->restore(clock.now()); !restored)
-      return tl::make_unexpected(restored.error());
+    if (auto resumed = impl->resume(); !resumed) return tl::make_unexpected(resumed.error());
   }
   impl->start(executor);
   return std::unique_ptr<Robot>(new Robot(std::move(impl)));
@@ -361,7 +371,9 @@ Robot::~Robot() {
 
 bool Robot::missionEnded() const { return impl_->ended.load(); }
 bool Robot::missionSucceeded() const { return impl_->succeeded.load(); }
-std::string Robot::reportJson(Stamp now) const { return impl_->report.toJson(now); }
+std::string Robot::reportJson(Stamp now) const {
+  return impl_->report.toJson(*impl_->host, impl_->belief.resets, now);
+}
 const std::vector<float>& Robot::locateCosts() const { return impl_->locate_s; }
 const BaseController& Robot::base() const { return impl_->base; }
 const PumpController& Robot::pumps() const { return impl_->pumps; }

@@ -16,7 +16,7 @@ class RunRecorder;
 
 /// How this run of the daemon is meant; from the command line.
 struct RobotOptions {
-  std::string mission = "fire";
+  std::string mission = missionNames().front();
   std::string mission_uuid;
   bool start = false;     ///< start the mission by itself as soon as the preflight checks pass
   bool resume = false;    ///< go on from the checkpoint in state_dir

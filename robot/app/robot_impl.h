@@ -4,7 +4,7 @@
 
 #include <atomic>
 
-#include "robot/app/heat_localizer_sweep.h"
+#include "robot/app/health_watch.h"
 #include "robot/app/mission_control.h"
 #include "robot/app/mission_report.h"
 #include "robot/app/robot.h"
@@ -20,6 +20,8 @@ struct Robot::Impl {
        const Clock& clock_in, Executor& executor, OperatorLink* link_in, StopLatch& stop_in,
        RobotGeometry robot_in, ArenaMap arena_in, const SprayCalibration& spray_in,
        std::vector<Macro> macros_in, Location location);
+  /// The mission that `options` names, lent what it works with.
+  [[nodiscard]] Result<void> makeMission(Executor& executor);
   void start(Executor& executor);
   void controlTick(Stamp now);
   void missionTick(Stamp now);
@@ -32,10 +34,12 @@ struct Robot::Impl {
   void obeyOperators(Stamp now);
   void runChecks(Stamp now);
   [[nodiscard]] GateSituation gateSituation(Stamp now) const;
-  void beginReport(Stamp now);
-  void keepBooks(Stamp now);
-  void recordEstimate(Stamp image, const Eigen::Isometry3d& X_map_thermal);
+  void beginReport();
+  void updateReport();
+  /// Goes on from the checkpoint; moves and starts nothing.
+  Result<void> resume();
   void raiseAlarms(Stamp now);
+  void raiseMissionAlarms(Stamp now);
   void publish(Stamp now);
   void record(Stamp now);
   void runCameraOnDemand();
@@ -62,8 +66,8 @@ struct Robot::Impl {
     const auto state = devices.arm.state();
     return state ? std::optional(robot.X_base_flange(state->q)) : std::nullopt;
   }
-  /// Puts back what the checkpoint says; moves and starts nothing.
-  Result<void> restore(Stamp now);
+  /// Where the flange was in map at a stamp of the last seconds.
+  [[nodiscard]] std::optional<Eigen::Isometry3d> flangeAt(Stamp stamp) const;
 
   RobotSettings settings;
   RobotOptions options;
@@ -81,7 +85,6 @@ struct Robot::Impl {
   SelfFilter self_filter;
   std::unique_ptr<ScanLocator> locator;
   std::shared_ptr<const MapLayer> map_layer;
-  HeatDetector detector;
   Localizer localizer;
   TrackedPose tracked;
   PerceptionJobs perception;
@@ -89,16 +92,17 @@ struct Robot::Impl {
   MotionWatch motion_watch;
   DriveTo drive;
   MoveArm move_arm;
-  WorldModel world;
-  HeatLocalizerSweep sweep;
-  FireMission mission;
+  SprayCalibration spray;
+  RobotBelief belief;
   MacroRunner macros;
   Teleop teleop;
   AlarmBook alarms;
   Authority authority;
-  MissionHost host;
-  MissionControl control;
+  std::unique_ptr<Mission> mission;  ///< made by makeMission(), and the two below with it
+  std::unique_ptr<MissionHost> host;
+  std::unique_ptr<MissionControl> control;
   TelemetryHub telemetry;
+  HealthWatch health;
   MissionReport report;
   TrajectoryLog driven;
   bool driven_grew = false;
@@ -111,15 +115,10 @@ struct Robot::Impl {
   std::string match_failure;
   std::optional<double> disk_free_gb;
   std::optional<Stamp> disk_seen;
-  FsmStatus fsm;
-  std::optional<HeatDetections> last_heat;
-  std::optional<Stamp> usable_heat;  ///< of the newest picture that was not refused
-  std::uint32_t resets_seen = 0;
-  std::optional<Stamp> mission_start;
+  std::vector<std::string> mission_alarms;  ///< ids that the mission has raised
   std::uint64_t status_seq = 0;
   std::vector<float> locate_s;  ///< wall time of each scan matched, for the timing report
   std::uint64_t recorded_ticks = 0;
-  bool storage_ok = true;
   int starts_seen = 0;
   std::optional<Stamp> carried;  ///< the last reset, until the first scan has been matched
   bool camera_runs = false;

@@ -44,7 +44,6 @@ std::vector<ClockReading> Robot::Impl::clockReadings(Stamp now) const {
   device("the base", stampOf(devices.base.state()));
   device("the pump board", stampOf(devices.pumps.state()));
   device("the LiDAR", perception.lastScan());
-  device("the thermal camera", perception.lastThermal());
   if (!link || options.lockstep || options.environment == Environment::Replay) return clocks;
   for (const OperatorPeer& peer : link->operators())
     clocks.push_back({peer.name + "'s station", peer.clock_error_s});
@@ -85,19 +84,11 @@ PreflightInputs Robot::Impl::preflightInputs(Stamp now) const {
   in.pumps_age_s = ageOf(stampOf(in.pumps), now);
   in.lidar_age_s = ageOf(perception.lastScan(), now);
   if (devices.lidar != nullptr) in.lidar_defects = devices.lidar->defects();
-  in.thermal_age_s = ageOf(perception.lastThermal(), now);
   in.cloud_age_s = ageOf(perception.lastCloud(), now);
-  in.heat_age_s = ageOf(perception.lastHeat(), now);
   if (arm_state) in.arm_safety = arm_state->safety;
   if (base_state) in.battery_v = base_state->battery_v;
-  if (last_heat && !last_heat->usable) {
-    // Each closing of the shutter spoils some pictures in a row.
-    const auto age_s = ageOf(usable_heat, now);
-    in.thermal_usable = age_s && *age_s <= settings.preflight.thermal_age_s;
-    in.thermal_refusal = last_heat->refusal;
-  }
   in.pose_health = tracked.health;
-  in.storage_ok = storage_ok;
+  in.storage_ok = !host->storageProblem();
   in.missing_edges = missingTransforms(now);
   in.tree_edges = fullTreeSize();
   in.clocks = clockReadings(now);

@@ -13,7 +13,7 @@ void Robot::Impl::record(Stamp now) {
   sample.pumps = devices.pumps.state();
   sample.X_odom_base = base.tracking().X_odom_base;
   sample.X_map_odom = tracked.X_map_odom;
-  sample.resets = resets_seen;
+  sample.resets = belief.device_resets.value_or(0);
   recorder->devices(sample);
   if (++recorded_ticks % 2 == 0)  // every other tick is enough for what is drawn from it
     recorder->transforms(

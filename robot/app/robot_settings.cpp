@@ -12,7 +12,8 @@ void RobotSettings::visit(ConfigArchive& a) {
       "locate against the walls there");
   a.field("spray_calibration", spray_calibration,
           "resource file written by kiln-eval spray-calibration");
-  a.field("mission_limit_s", mission_limit_s, "s", 10, 36000, "mission clock");
+  a.field("checkpoint_period_s", checkpoint_period_s, "s", 0.02, 60,
+          "how old a checkpoint may be between actions");
   a.field("camera_rate_hz", camera_rate_hz, "Hz", 0.1, 60, "pictures sent to the stations");
   a.field("jpeg_quality", jpeg_quality, "%", 10, 100, "of those pictures");
   a.section("arm", arm, "arm controller");
@@ -25,9 +26,7 @@ void RobotSettings::visit(ConfigArchive& a) {
   a.section("surroundings", surroundings, "what the live cloud says of the world around");
   a.section("motion_watch", motion_watch, "does the base do what it is told?");
   a.section("localization", localization, "where the robot is");
-  a.section("heat_detector", heat_detector, "thermal picture");
-  a.section("heat_localizer", heat_localizer, "heat source over a sweep");
-  a.section("fire", fire, "fire mission");
+  missions.visit(a);
   a.section("authority", authority, "lease, command gate, dead-man");
   a.section("macros", macros, "macros");
   a.section("teleop", teleop, "moving by hand");

@@ -8,8 +8,7 @@
 #include "robot/app/preflight.h"
 #include "robot/app/run_recorder.h"
 #include "robot/app/teleop.h"
-#include "robot/missions/fire/fire_mission.h"
-#include "robot/perception/thermal/heat_localizer.h"
+#include "robot/missions/catalog.h"
 #include "robot/safety/authority.h"
 #include "robot/safety/motion_watch.h"
 #include "robot/skills/drive_to.h"
@@ -26,7 +25,7 @@ struct RobotSettings {
   std::string arena = "config/arena_kitchen.yaml";  ///< resource
   bool flat_ground = false;                         ///< the arena without its ramp and edge
   std::string spray_calibration = "config/spray_calibration.yaml";
-  double mission_limit_s = 900.0;
+  double checkpoint_period_s = 0.2;  ///< between actions
   double camera_rate_hz = 10.0;
   int jpeg_quality = 75;
   ArmController::Config arm;
@@ -39,9 +38,7 @@ struct RobotSettings {
   LiveSurroundings::Config surroundings;
   MotionWatch::Config motion_watch;
   LocalizationSettings localization;
-  HeatDetector::Config heat_detector;
-  HeatLocalizer::Config heat_localizer;
-  FireConfig fire;
+  MissionConfigs missions = missionConfigs();
   Authority::Config authority;
   MacroRunnerConfig macros;
   Teleop::Config teleop;

@@ -12,17 +12,10 @@ constexpr double kRest_radps = 0.02;  ///< joints and wheels below this stand st
 constexpr double kPumpRest_a = 0.3;
 constexpr double kProofAge_s = 0.1;  ///< older states prove no standstill
 
-/// Rules of Challenge 3: 6 points for the first litre on the burning place. What is burning is
-/// known by what was sprayed at, and litres are an estimate.
-double scoreEstimate(const WorldState& world) {
-  double best_l = 0.0;
-  for (const FirePlace& place : world.places) best_l = std::max(best_l, place.litres_est);
-  return 6.0 * std::min(best_l, 1.0);
-}
-
 }  // namespace
 
 void Robot::Impl::raiseAlarms(Stamp now) {
+  const FsmStatus& fsm = host->fsm();
   const auto arm_state = devices.arm.state();
   const bool protective = arm_state && arm_state->safety == ArmSafetyMode::ProtectiveStop;
   alarms.set("arm.protective_stop", protective, AlarmLevel::Warning, "Arm in protective stop",
@@ -38,20 +31,16 @@ void Robot::Impl::raiseAlarms(Stamp now) {
              "tank empty, hose blocked or cable loose: check, then spray again", now);
   alarms.set("pose.lost", fsm.running && tracked.health == PoseHealth::Lost, AlarmLevel::Warning,
              "Position lost", "drive by hand or call a reset", now);
-  alarms.set("teleop.too_near", host.mode() == Mode::Teleop && !teleop.blocked().empty(),
+  alarms.set("teleop.too_near", host->mode() == Mode::Teleop && !teleop.blocked().empty(),
              AlarmLevel::Advisory, "Arm jog stopped: " + teleop.blocked(), "jog away from it", now);
   const std::string fence = base.tracking().limited;
   alarms.set("base.fence", !fence.empty(), AlarmLevel::Advisory, "Base limited by the " + fence,
              "drive back into the arena", now);
-  const bool refused = fsm.running && fsm.state == "PlaceRefused";
-  alarms.set("place.refused", refused, AlarmLevel::Caution, fsm.display_text,
-             "compare configured and sensed outline, nudge the place or force Arm search", now);
-  const auto mission_alarms = mission.alarms();
-  storage_ok = mission_alarms.empty();
-  alarms.set("storage", !storage_ok, AlarmLevel::Caution,
-             storage_ok ? "" : mission_alarms.front().text,
-             storage_ok ? "" : mission_alarms.front().action, now);
-  alarms.set("fsm.blocked", !fsm.blocked.empty(), AlarmLevel::Warning, fsm.blocked,
+  const auto storage = host->storageProblem();
+  alarms.set("storage", storage.has_value(), AlarmLevel::Caution, storage ? storage->message : "",
+             "The mission goes on but could not be resumed; free the disk", now);
+  const std::string blocked = health.take();  // and it goes on again
+  alarms.set("fsm.blocked", !blocked.empty(), AlarmLevel::Warning, blocked,
              "press STOP and restart the daemon", now);
   const auto base_state = devices.base.state();
   const double battery_v = base_state ? base_state->battery_v : 0.0;
@@ -61,6 +50,19 @@ void Robot::Impl::raiseAlarms(Stamp now) {
   alarms.set("recording", !not_recording.empty(), AlarmLevel::Caution,
              "Recording has ended: " + not_recording,
              "make room on the disk, then switch the recording on again", now);
+  raiseMissionAlarms(now);
+}
+
+void Robot::Impl::raiseMissionAlarms(Stamp now) {
+  std::vector<std::string> raised;
+  for (const MissionAlarm& alarm : mission->alarms(now)) {
+    alarms.set(alarm.id, true, alarm.level, alarm.text, alarm.action, now);
+    raised.push_back(alarm.id);
+  }
+  for (const std::string& id : mission_alarms)
+    if (std::find(raised.begin(), raised.end(), id) == raised.end())
+      alarms.set(id, false, AlarmLevel::Advisory, "", "", now);
+  mission_alarms = std::move(raised);
 }
 
 /// At rest by what was measured just now: what is old or no number proves nothing.
@@ -93,11 +95,11 @@ RobotStatus Robot::Impl::status(Stamp now) const {
   s.robot_name = settings.name;
   s.version = options.version;
   s.environment = options.environment;
-  s.mode = host.mode();
-  s.word = host.word(allOk(checks));
-  s.reason = s.word == StatusWord::NotReady ? firstFailure(checks) : host.reason();
-  s.phase = host.phase();
-  s.holds = host.holds();
+  s.mode = host->mode();
+  s.word = host->word(allOk(checks));
+  s.reason = s.word == StatusWord::NotReady ? firstFailure(checks) : host->reason();
+  s.phase = host->phase();
+  s.holds = host->holds();
   s.checks = checks;
   s.lease = authority.lease(now);
   s.stop = stopStatus(now);
@@ -113,21 +115,19 @@ RobotStatus Robot::Impl::status(Stamp now) const {
     s.battery_v = base_state->battery_v;
     s.battery_a = base_state->battery_a;
   }
-  const PumpTracking water = pumps.tracking();
-  s.water = {water.duty, water.current_a, water.tank_l_est, water.sprayed_l_est};
+  mission->describe(s, now);
   s.macro = macros.status();
   if (options.recorder) s.recording = options.recorder->status();
   s.speed_scale = teleop.speedScale();
-  s.mission_elapsed_s = world.state().elapsedS(now);
-  s.mission_limit_s = settings.mission_limit_s;
-  s.resets = world.state().resets;
-  s.score_est = scoreEstimate(world.state());
+  s.mission_elapsed_s = belief.elapsedS(now);
+  s.mission_limit_s = mission->limitS();
+  s.resets = belief.resets;
   s.alarms = alarms.list();
   if (link) {
     s.drops = link->drops();
     for (const OperatorPeer& peer : link->operators()) s.operators.push_back(peer.name);
   }
-  s.drops.push_back({"perception", perception.droppedFrames()});
+  s.drops.push_back({"perception", perception.droppedFrames() + mission->droppedFrames()});
   if (options.recorder) s.drops.push_back({"recorder", s.recording.dropped});
   return s;
 }
@@ -151,19 +151,16 @@ LocalizationStatus Robot::Impl::localizationStatus() const {
   s.observable_directions = tracked.observable_directions;
   s.matches = tracked.fixes;
   s.rejected = tracked.rejected;
-  s.resets = static_cast<int>(resets_seen);
+  s.resets = static_cast<int>(belief.device_resets.value_or(0));
   return s;
 }
 
 Scene Robot::Impl::scene(Stamp now) const {
   Scene scene;
   scene.stamp = now;
-  scene.fires = mission.fires();
-  scene.places = mission.places();
   scene.planned = {now, drive.waypoints(), drive.nextIndex()};
-  scene.jet = mission.jetPreview(now);
   scene.arena = sceneBoxes(arena);
-  scene.place_checks = mission.placeChecks();
+  mission->describe(scene, now);
   return scene;
 }
 
@@ -186,15 +183,18 @@ void Robot::Impl::runCameraOnDemand() {
 
 void Robot::Impl::publish(Stamp now) {
   runCameraOnDemand();
-  if (telemetry.fsmDue(now, fsm.step)) telemetry.publish(fsm);
+  if (telemetry.fsmDue(now, host->fsm().step)) telemetry.publish(host->fsm());
   if (telemetry.statusDue(now)) {
     ++status_seq;
-    telemetry.publish(status(now));
+    const RobotStatus told = status(now);
+    health.remember(told);
+    telemetry.publish(told);
   }
   if (telemetry.sceneDue(now)) telemetry.publish(scene(now));
   if (telemetry.localizationDue(now)) telemetry.publish(localizationStatus());
   if (tracked.health != PoseHealth::Lost)
-    driven_grew |= driven.add(now, tracked.X_map_base, static_cast<int>(resets_seen));
+    driven_grew |=
+        driven.add(now, tracked.X_map_base, static_cast<int>(belief.device_resets.value_or(0)));
   if (driven_grew && telemetry.trajectoryDue(now)) {
     telemetry.publish(driven.trajectory());
     driven_grew = false;

@@ -10,6 +10,7 @@
 #include "robot/evaluation/mission_run.h"
 #include "robot/evaluation/trajectory_figure.h"
 #include "robot/evaluation/yard_calibration.h"
+#include "robot/missions/catalog.h"
 
 namespace {
 
@@ -101,9 +102,9 @@ int main(int argc, char** argv) {
   run_options.lockstep = false;
   std::string report, figure;
   auto* run = app.add_subcommand("run", "one mission; exit status 0 only on success");
-  run->add_option("--mission", run_options.mission, "mission")
-      ->default_val("fire")
-      ->check(CLI::IsMember({"fire", "mapping"}));
+  run->add_option("--mission", run_options.mission, missionHelp())
+      ->default_val(missionNames().front())
+      ->check(CLI::IsMember(missionNames()));
   run->add_option("--seed", run_options.seed, "seed of the world")
       ->default_val(1)
       ->check(CLI::NonNegativeNumber);

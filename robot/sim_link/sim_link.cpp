@@ -88,7 +88,8 @@ struct SimLink::Impl {
   ClockMap clock_map;
   LatestValue<Stamp> last_report;  ///< daemon's clock
   LatestValue<std::string> refusal;
-  std::atomic<std::uint32_t> resets{0}, reconnects{0};
+  std::atomic<std::int64_t> resets{-1};  ///< -1: not heard yet
+  std::atomic<std::uint32_t> reconnects{0};
   Stamp last_hello, opened;
   std::unique_ptr<WorldSocket> socket;
   std::jthread io;
@@ -260,7 +261,10 @@ Result<void> SimLink::advanceTo(Stamp until) {
 const SimLink::World& SimLink::world() const { return impl_->world; }
 bool SimLink::lockstep() const { return impl_->config.lockstep; }
 bool SimLink::connected() const { return impl_->outbox.open(); }
-std::uint32_t SimLink::resets() const { return impl_->resets.load(); }
+std::optional<std::uint32_t> SimLink::resets() const {
+  const std::int64_t resets = impl_->resets.load();
+  return resets < 0 ? std::nullopt : std::optional(static_cast<std::uint32_t>(resets));
+}
 std::string SimLink::refusal() const { return impl_->refusal.peek().value_or(""); }
 std::uint32_t SimLink::reconnects() const { return impl_->reconnects.load(); }
 

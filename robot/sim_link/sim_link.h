@@ -86,7 +86,7 @@ class SimLink {
   /// Since the newest report, in the daemon's clock; nullopt before the first.
   [[nodiscard]] std::optional<Duration> lastReportAge() const;
   /// Counts up when the robot has been carried back to its start.
-  [[nodiscard]] std::uint32_t resets() const;
+  [[nodiscard]] std::optional<std::uint32_t> resets() const;
   /// Last device-level refusal in words, e.g. a servo target out of limits; empty if none.
   [[nodiscard]] std::string refusal() const;
   /// Hellos after the first (the world was lost and came back).

@@ -11,6 +11,7 @@
 #include "robot/fsm/machine_of.h"
 #include "robot/missions/common/mission_host.h"
 #include "robot/safety/authority.h"
+#include "tests/support/machine_mission.h"
 
 namespace kiln {
 namespace {
@@ -94,6 +95,7 @@ constexpr std::array<const char*, static_cast<std::size_t>(Act::Count)> kNames{
 class Desk final : public Authority::Handler {
  public:
   explicit Desk(bool start_by_itself) {
+    build();
     if (start_by_itself) host_->waitForStart();
   }
   /// @return what is broken; empty: nothing.
@@ -259,25 +261,26 @@ class Desk final : public Authority::Handler {
   /// The daemon is killed and goes on from its checkpoint; operators start anew.
   void killAndResume() {
     if (!machine_->begun()) return;
-    const FsmCheckpoint checkpoint = machine_->checkpoint();
-    const auto holds =
-        host_->waiting() == MissionHost::Wait::None ? host_->holds() : std::vector<MissionHold>{};
+    const MissionCheckpoint checkpoint = host_->checkpoint();
     const int visits = toy_.visits;
-    const bool stood = !machine_->running() || !holds.empty();
+    const bool stood = !machine_->running() || !checkpoint.holds.empty();
+    const Stamp clock_start = belief_.clock_start;
     build();
-    uuid_lost_ = !machine_->restore(checkpoint, now()).has_value() ||
-                 machine_->info().mission_uuid != checkpoint.mission_uuid;
-    host_->restored(holds, now());
+    uuid_lost_ = !host_->restore(checkpoint, now()).has_value() ||
+                 machine_->info().mission_uuid != checkpoint.fsm.mission_uuid ||
+                 belief_.clock_start != clock_start;
     toy_.visits = visits;
     visits_expected_ = visits;
     if (stood) asleep_ = true;
     press_ = ended_press_ = 0;
   }
   void build() {
+    host_.reset();
     machine_ = std::make_unique<ToyMachine>(
         MachineCore::Options{.mission = "toy", .mission_uuid = "u"}, clock_, toy_);
-    host_ = std::make_unique<MissionHost>(*machine_, stop_,
-                                          [this](Stamp at) { machine_->start("", at); });
+    mission_.emplace(*machine_);
+    belief_ = {};
+    host_ = std::make_unique<MissionHost>(*mission_, belief_, stop_, clock_);
     authority_.emplace(Authority::Config{});
   }
   void tick() {
@@ -292,7 +295,7 @@ class Desk final : public Authority::Handler {
     for (OperatorPeer& peer : peers) peer.last_heard = now();
     (void)authority_->step(batch_, peers, *this, now());
     host_->goOnWhenAllowed(situation(now()), now());
-    machine_->step(now());
+    host_->tick(now());
   }
   [[nodiscard]] std::string broken(int setpoints_before) {
     host_->check();
@@ -315,11 +318,11 @@ class Desk final : public Authority::Handler {
   ManualClock clock_{Stamp{std::chrono::seconds(100)}};
   Toy toy_;
   StopLatch stop_;
-  std::unique_ptr<ToyMachine> machine_ = std::make_unique<ToyMachine>(
-      MachineCore::Options{.mission = "toy", .mission_uuid = "u"}, clock_, toy_);
-  std::unique_ptr<MissionHost> host_ = std::make_unique<MissionHost>(
-      *machine_, stop_, [this](Stamp at) { machine_->start("", at); });
-  std::optional<Authority> authority_{std::in_place, Authority::Config{}};
+  std::unique_ptr<ToyMachine> machine_;
+  std::optional<MachineMission> mission_;
+  RobotBelief belief_;
+  std::unique_ptr<MissionHost> host_;
+  std::optional<Authority> authority_;
   std::vector<ReceivedCommand> batch_;
   std::uint64_t nonce_ = 0, press_ = 0, ended_press_ = 0;
   int visits_expected_ = -1;

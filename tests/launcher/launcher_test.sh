@@ -30,6 +30,7 @@ ln -s "$fake_world" "$programs/kiln-sim"
 # The robot ends when the station has taken its picture; how, the test says in FAKE_OUTCOME.
 cat >"$programs/kiln-robotd" <<'ROBOT'
 #!/usr/bin/env bash
+[ "$1" = --list-missions ] && { printf 'fire\tfire\tfinds the fire\n'; exit 0; }
 echo "$*" >"$FAKE_NOTES/robotd"
 [ "$FAKE_OUTCOME" = refuses ] && { echo "kiln-robotd: port 7300 is in use" >&2; exit 2; }
 while [ $# -gt 0 ]; do [ "$1" = --report ] && report=$2; shift; done

@@ -1,14 +1,26 @@
 #include "robot/missions/common/mission_checkpoint.h"
 
-#include <nlohmann/json.hpp>
+#include <zlib.h>
 
 #include "robot/world_model/read_file.h"
-#include "robot/world_model/world_json.h"
 
 namespace kiln {
 namespace {
 using nlohmann::json;
 constexpr const char* kFormat = "kiln-mission-checkpoint";
+
+/// Objects are kept sorted and numbers are printed to come back as they were: what was read dumps
+/// to the text that was written.
+std::uint32_t checksum(const json& body) {
+  const std::string text = body.dump();
+  return static_cast<std::uint32_t>(
+      crc32_z(0, reinterpret_cast<const Bytef*>(text.data()), text.size()));
+}
+
+tl::unexpected<Error> damaged(const std::string& name, const std::string& why) {
+  return makeError(ErrorCode::InvalidInput,
+                   "{}: the checkpoint is damaged: {}; start without --resume", name, why);
+}
 
 FsmCheckpoint fsmFrom(const json& j) {
   return {j.at("mission").get<std::string>(), j.at("mission_uuid").get<std::string>(),
@@ -23,18 +35,29 @@ json holdsToJson(const std::vector<MissionHold>& holds) {
   return out;
 }
 
-/// A file of before has no such list: its mission ran.
-Result<std::vector<MissionHold>> holdsFrom(const json& rows, const std::string& name) {
+Result<std::vector<MissionHold>> holdsFrom(const json& rows) {
   std::vector<MissionHold> out;
   for (const json& row : rows) {
     const int reason = row.at("reason").get<int>();
     if (reason < 0 || reason > static_cast<int>(HoldReason::Restored))
-      return makeError(ErrorCode::InvalidInput,
-                       "{}: the checkpoint is damaged: hold reason {} is unknown; start without "
-                       "--resume",
-                       name, reason);
+      return makeError(ErrorCode::InvalidInput, "hold reason {} is unknown", reason);
     out.push_back({static_cast<HoldReason>(reason), row.at("text").get<std::string>()});
   }
+  return out;
+}
+
+Result<MissionCheckpoint> checkpointFrom(const json& body) {
+  MissionCheckpoint out;
+  out.stamp = stampFromNanoseconds(body.at("stamp_ns").get<std::int64_t>());
+  out.fsm = fsmFrom(body.at("fsm"));
+  auto holds = holdsFrom(body.at("holds"));
+  if (!holds) return tl::make_unexpected(holds.error());
+  out.holds = std::move(*holds);
+  auto robot = beliefFromJson(body.at("robot"));
+  if (!robot) return tl::make_unexpected(robot.error());
+  out.robot = *robot;
+  out.log = body.at("log");
+  out.mission = body.at("mission");
   return out;
 }
 
@@ -42,17 +65,21 @@ Result<std::vector<MissionHold>> holdsFrom(const json& rows, const std::string& 
 
 std::string encodeCheckpoint(const MissionCheckpoint& checkpoint) {
   const FsmCheckpoint& fsm = checkpoint.fsm;
+  const json body = {{"stamp_ns", toNanoseconds(checkpoint.stamp)},
+                     {"fsm",
+                      {{"mission", fsm.mission},
+                       {"mission_uuid", fsm.mission_uuid},
+                       {"step", fsm.step},
+                       {"state", fsm.state},
+                       {"resume_state", fsm.resume_state}}},
+                     {"holds", holdsToJson(checkpoint.holds)},
+                     {"robot", beliefToJson(checkpoint.robot)},
+                     {"log", checkpoint.log},
+                     {"mission", checkpoint.mission}};
   const json out = {{"format", kFormat},
                     {"version", MissionCheckpoint::kVersion},
-                    {"stamp_ns", toNanoseconds(checkpoint.stamp)},
-                    {"fsm",
-                     {{"mission", fsm.mission},
-                      {"mission_uuid", fsm.mission_uuid},
-                      {"step", fsm.step},
-                      {"state", fsm.state},
-                      {"resume_state", fsm.resume_state}}},
-                    {"holds", holdsToJson(checkpoint.holds)},
-                    {"world", worldToJson(checkpoint.world)}};
+                    {"crc32", checksum(body)},
+                    {"body", body}};
   return out.dump(1) + "\n";
 }
 
@@ -68,22 +95,16 @@ Result<MissionCheckpoint> decodeCheckpoint(const std::string& text, const std::s
                      "without --resume",
                      name, MissionCheckpoint::kVersion, j.value("format", json()).dump(),
                      j.value("version", json()).dump());
-  MissionCheckpoint out;
+  const json body = j.value("body", json());
+  if (j.value("crc32", json()) != checksum(body))
+    return damaged(name, "its checksum does not fit what it says");
   try {
-    out.stamp = stampFromNanoseconds(j.at("stamp_ns").get<std::int64_t>());
-    out.fsm = fsmFrom(j.at("fsm"));
-    auto world = worldFromJson(j.at("world"));
-    if (!world)
-      return tl::make_unexpected(Error{world.error().code, name + ": " + world.error().message});
-    out.world = std::move(*world);
-    auto holds = holdsFrom(j.value("holds", json::array()), name);
-    if (!holds) return tl::make_unexpected(holds.error());
-    out.holds = std::move(*holds);
+    auto read = checkpointFrom(body);
+    if (!read) return damaged(name, read.error().message);
+    return read;
   } catch (const json::exception& e) {
-    return makeError(ErrorCode::InvalidInput,
-                     "{}: the checkpoint is damaged: {}; start without --resume", name, e.what());
+    return damaged(name, e.what());
   }
-  return out;
 }
 
 Result<MissionCheckpoint> loadCheckpoint(const std::string& path) {

@@ -2,14 +2,59 @@
 
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "common/core/check.h"
 #include "common/core/log.h"
+#include "robot/fsm/uuid.h"
 #include "robot/safety/gate_rules.h"
 
 namespace kiln {
 
-MissionHost::MissionHost(Machine& machine, StopLatch& stop, std::function<void(Stamp)> begin)
-    : machine_(machine), stop_(stop), begin_(std::move(begin)) {}
+MissionHost::MissionHost(Mission& mission, RobotBelief& belief, StopLatch& stop, const Clock& clock,
+                         CheckpointKeeper::Config checkpoint)
+    : mission_(mission),
+      machine_(mission.machine()),
+      belief_(belief),
+      stop_(stop),
+      clock_(clock),
+      keeper_(std::move(checkpoint), [this] {
+        log_.observe(machine_.status(clock_.now()));
+        return this->checkpoint();
+      }) {
+  keepTransitions();
+}
+
+void MissionHost::keepTransitions() {
+  machine_.onTransition([this](const FsmCheckpoint&) { keeper_.onTransition(clock_.now()); });
+}
+
+MissionCheckpoint MissionHost::checkpoint() const {
+  MissionCheckpoint out;
+  out.stamp = clock_.now();
+  out.fsm = machine_.checkpoint();
+  // Waiting for its sensors after a restart, a mission runs as far as the next restart goes.
+  if (wait_ == Wait::None) out.holds = holds();
+  out.robot = belief_;
+  out.log = log_.save();
+  out.mission = mission_.save();
+  return out;
+}
+
+Result<void> MissionHost::restore(const MissionCheckpoint& saved, Stamp now) {
+  const Duration shift = now < saved.stamp ? now - saved.stamp : Duration{};
+  if (auto log = log_.restore(saved.log, saved.stamp, shift); !log) return log;
+  if (auto mission = mission_.restore(saved.mission); !mission) return mission;
+  belief_ = saved.robot;
+  belief_.continueClock(saved.stamp, now);
+  machine_.onTransition({});  // nothing is kept before it is known why the mission stood
+  auto machine = machine_.restore(saved.fsm, now);
+  keepTransitions();
+  if (!machine) return machine;
+  hold(saved.holds, now);
+  fsm_ = machine_.status(now);
+  return {};
+}
 
 void MissionHost::goOnWhenAllowed(GateSituation situation, Stamp now) {
   if (wait_ == Wait::None) return;
@@ -29,7 +74,7 @@ void MissionHost::goOnWhenAllowed(GateSituation situation, Stamp now) {
   }
 }
 
-void MissionHost::restored(const std::vector<MissionHold>& before, Stamp now) {
+void MissionHost::hold(const std::vector<MissionHold>& before, Stamp now) {
   if (!machine_.running()) return machine_.resume(now);
   hold(HoldReason::Restored, "restored from its checkpoint", now);
   if (before.empty()) wait_ = Wait::Resume;
@@ -50,8 +95,16 @@ void MissionHost::start(Stamp now) {
   machine_.resume(now);  // nothing runs: only lets go
   mode_ = Mode::Autonomous;
   ++starts_;
-  begin_(now);
+  begin(now);
   logger("mission")->info("mission started");
+}
+
+void MissionHost::begin(Stamp now) {
+  const bool again = machine_.begun();
+  if (again) mission_.beginAnew(now);
+  belief_.startClock(now);
+  log_.begin(now);
+  machine_.start(again ? randomUuid() : std::string(), now);
 }
 
 void MissionHost::resume(Stamp now) {
@@ -110,6 +163,22 @@ bool MissionHost::observeStop(Stamp now) {
   stop_seen_ = generation;
   hold(HoldReason::Stop, "STOP by " + stop_.source(), now);
   return true;
+}
+
+void MissionHost::onReset(Stamp now) {
+  ++belief_.resets;
+  mission_.onReset(now);
+  if (machine_.running()) machine_.restart(fmt::format("reset {}", belief_.resets), now);
+}
+
+void MissionHost::tick(Stamp now) {
+  check();
+  mission_.observe(now);
+  machine_.step(now);
+  fsm_ = machine_.status(now);
+  log_.observe(fsm_);
+  if (machine_.running())
+    keeper_.tick(wait_ == Wait::None ? holds() : std::vector<MissionHold>{}, now);
 }
 
 void MissionHost::check() const {

@@ -116,7 +116,6 @@ void FireConfig::visit(ConfigArchive& a) {
   a.section("spray", spray, "water");
   a.section("faults", faults, "what is tried again");
   a.section("clock", clock, "mission clock");
-  a.field("checkpoint_period_s", checkpoint_period_s, "s", 0.02, 60.0, "between actions");
 }
 
 }  // namespace kiln

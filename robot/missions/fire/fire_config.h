@@ -112,8 +112,6 @@ struct FireConfig {
   FireSprayConfig spray;
   FireFaultConfig faults;
   FireClockConfig clock;
-  double checkpoint_period_s =
-      0.2;  ///< between actions; the last pose is at most this old after a kill
   void visit(ConfigArchive& a);
 };
 

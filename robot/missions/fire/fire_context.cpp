@@ -1,6 +1,7 @@
 #include "robot/missions/fire/fire_context.h"
 
 #include <cmath>
+#include <utility>
 
 #include "common/core/check.h"
 #include "robot/skills/aim/pose_step.h"
@@ -18,16 +19,19 @@ FireContext::FireContext(const FireDevices& fire_devices, const FireConfig& fire
     : devices(fire_devices),
       config(fire_config),
       calibration(spray_calibration),
+      belief(initialFireBelief(fire_devices.arena)),
       heat(fire_devices.heat),
       look(fire_config.search.motion, fire_devices.robot, fire_devices.arm),
       drive(fire_devices.robot, fire_devices.base, fire_devices.arm, fire_devices.arm_device,
             fire_config.drive.stow_tolerance_deg * kDeg) {}
 
-FirePlace& FireContext::place() const {
-  FirePlace* current = devices.world.currentPlace();
+const FirePlace& FireContext::place() const {
+  const FirePlace* current = belief.currentPlace();
   KILN_CHECK(current != nullptr);
   return *current;
 }
+
+FirePlace& FireContext::place() { return const_cast<FirePlace&>(std::as_const(*this).place()); }
 
 Eigen::Isometry3d FireContext::placeFront() const {
   return devices.arena.front(place().p_plate_map, place().facing_rad);
@@ -37,7 +41,7 @@ std::string FireContext::whyNoPlace() const {
   return hasPlace() ? "" : "no fire place is selected; enter Next location first";
 }
 
-void FireContext::closePlace(const std::string& outcome) const {
+void FireContext::closePlace(const std::string& outcome) {
   place().visited = true;
   place().outcome = outcome;
 }
@@ -87,7 +91,7 @@ AimTarget FireContext::aimTarget(const FireEstimate& fire) const {
 
 double FireContext::flowScale() const {
   const PumpTracking pumps = devices.pumps.tracking();
-  const WorldState& w = world();
+  const FireBelief& w = belief;
   const double to_spray_l = std::max(0.0, config.spray.litres_per_fire - place().litres_est);
   const int running = static_cast<int>(w.pump_usable[0]) + static_cast<int>(w.pump_usable[1]);
   if (running == 0) return 1.0;
@@ -111,7 +115,7 @@ bool FireContext::atSprayPose() const {
 }
 
 bool FireContext::atWorkPose() const {
-  const int index = world().current_place;
+  const int index = belief.current_place;
   if (index < 0) return false;
   const Pose2 work = devices.arena.fire_places[static_cast<std::size_t>(index)].work_pose.pose();
   const Pose2 here = devices.pose();
@@ -122,7 +126,7 @@ void FireContext::pumpsOn(Stamp now) const {
   PumpSetpoint setpoint;
   setpoint.stamp = now;
   for (std::size_t i = 0; i < 2; ++i)
-    setpoint.duty[i] = world().pump_usable[i] ? config.spray.duty : 0.0;
+    setpoint.duty[i] = belief.pump_usable[i] ? config.spray.duty : 0.0;
   devices.pumps.setpoint(setpoint);
 }
 

@@ -10,22 +10,23 @@
 #include "robot/control/pump_controller.h"
 #include "robot/hal/arm.h"
 #include "robot/missions/common/stowed_drive.h"
+#include "robot/missions/fire/fire_belief.h"
 #include "robot/missions/fire/fire_config.h"
 #include "robot/scene/arena_map.h"
 #include "robot/skills/look/heat_watch.h"
 #include "robot/skills/look/look_around.h"
 #include "robot/skills/motion.h"
 #include "robot/skills/surroundings.h"
-#include "robot/world_model/world_model.h"
+#include "robot/world_model/robot_belief.h"
 
 namespace kiln {
 
 /// What the fire mission works with; all outlive it.
 struct FireDevices {
   const Clock& clock;
-  const ArenaMap& arena;
+  ArenaMap& arena;  ///< what everybody plans with; a place that is nudged moves in it
   const RobotGeometry& robot;
-  WorldModel& world;
+  const RobotBelief& belief;
   BaseMotion& base;       ///< DriveTo
   ArmMotion& arm;         ///< MoveArm
   const Arm& arm_device;  ///< joints and safety mode
@@ -33,10 +34,10 @@ struct FireDevices {
   HeatSweep& heat;              ///< HeatLocalizer behind an adapter
   std::function<Pose2()> pose;  ///< newest X_map_base
   Surroundings& surroundings;   ///< the live cloud
-  /// A place stands elsewhere than the arena's file says: makes the arena that everybody plans with
-  /// follow. Called with what the world model believes.
-  std::function<void(std::size_t place, const Eigen::Vector3d& p_plate_map, double facing_rad)>
-      move_place;
+  /// Where the flange was in map at a stamp of the last seconds; nullopt: not known.
+  std::function<std::optional<Eigen::Isometry3d>(Stamp)> X_map_flange;
+  std::function<void(ThermalImagePtr)> publish_thermal;
+  std::function<void(HeatDetections)> publish_heat;
 };
 
 /// What the states of the fire mission share. Confined to the mission thread.
@@ -48,6 +49,7 @@ class FireContext {
   const FireDevices devices;
   const FireConfig config;
   const SprayCalibration calibration;
+  FireBelief belief;
   HeatWatch heat;
   LookAround look;
   StowedDrive drive;
@@ -66,16 +68,18 @@ class FireContext {
   std::optional<Stamp> pumps_idle_since;           ///< while they should run
   double sweep_started_s = 0.0;  ///< mission time at which the present sweep began
 
-  [[nodiscard]] WorldState& world() const { return devices.world.edit(); }
+  /// Seconds on the mission clock.
+  [[nodiscard]] double elapsedS(Stamp now) const { return devices.belief.elapsedS(now); }
   /// @pre a place is selected.
-  [[nodiscard]] FirePlace& place() const;
-  [[nodiscard]] bool hasPlace() const { return devices.world.currentPlace() != nullptr; }
+  [[nodiscard]] FirePlace& place();
+  [[nodiscard]] const FirePlace& place() const;
+  [[nodiscard]] bool hasPlace() const { return belief.currentPlace() != nullptr; }
   /// Where the current place's front is believed to be.
   [[nodiscard]] Eigen::Isometry3d placeFront() const;
   /// For State::denyEntry.
   [[nodiscard]] std::string whyNoPlace() const;
   /// Done with the current place in this round.
-  void closePlace(const std::string& outcome) const;
+  void closePlace(const std::string& outcome);
 
   [[nodiscard]] Eigen::Isometry3d X_map_base() const;
   [[nodiscard]] std::optional<Eigen::Isometry3d> X_base_flange()

@@ -4,14 +4,12 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "common/core/log.h"
-#include "robot/fsm/uuid.h"
-#include "robot/missions/common/mission_checkpoint.h"
 #include "robot/missions/fire/fire_machine.h"
-#include "robot/missions/mapping/mapping_machine.h"
+#include "robot/missions/fire/fire_report.h"
 #include "robot/skills/aim/jet.h"
-#include "robot/world_model/checkpoint_writer.h"
 
 namespace kiln {
 namespace {
@@ -24,136 +22,85 @@ bool worksAtPlace(const std::string& state) {
   return false;
 }
 
-bool sameHolds(const std::vector<MissionHold>& a, const std::vector<MissionHold>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) {
-    return x.reason == y.reason && x.text == y.text;
-  });
+/// Rules of Challenge 3: 6 points for the first litre on the burning place. What is burning is
+/// known by what was sprayed at, and litres are an estimate.
+double scoreEstimate(const FireBelief& belief) {
+  double best_l = 0.0;
+  for (const FirePlace& place : belief.places) best_l = std::max(best_l, place.litres_est);
+  return 6.0 * std::min(best_l, 1.0);
 }
 
 }  // namespace
 
-WorldState initialWorld(const ArenaMap& arena) {
-  WorldState world;
-  world.X_map_base = arena.start.pose();
-  for (const FirePlaceConfig& config : arena.fire_places) {
-    FirePlace place;
-    place.name = config.name;
-    place.p_plate_map = {config.plate_xyz_m[0], config.plate_xyz_m[1], config.plate_xyz_m[2]};
-    place.facing_rad = config.facing_deg * M_PI / 180.0;
-    world.places.push_back(place);
-  }
-  return world;
-}
-
 struct FireMission::Impl {
   Impl(const FireDevices& devices, const FireConfig& config, const SprayCalibration& calibration,
-       const Options& mission_options)
-      : options(mission_options),
-        writer(options.checkpoint_path.empty()
-                   ? nullptr
-                   : std::make_unique<CheckpointWriter>(options.checkpoint_path)),
+       const std::string& mission_uuid, std::unique_ptr<HeatTask> heat_task)
+      : heat(std::move(heat_task)),
         context(devices, config, calibration),
-        mapping{devices.clock, devices.arena,       context.drive,
-                devices.pose,  config.drive.rest_s, config.drive.max_faults},
-        machine(options.mission == "mapping" ? makeMappingMachine(mapping, options.mission_uuid)
-                                             : makeFireMachine(context, options.mission_uuid)) {
-    machine->onTransition([this](const FsmCheckpoint& fsm) { save(fsm, true); });
-  }
+        machine(makeFireMachine(context, mission_uuid)) {}
 
   /// Litres go to the place that is being worked on, whoever runs the pumps.
   void countWater() {
-    WorldState& world = context.world();
+    FireBelief& belief = context.belief;
     const PumpTracking pumps = context.devices.pumps.tracking();
-    const double sprayed = std::max(0.0, pumps.sprayed_l_est - world.sprayed_l_est);
-    if (FirePlace* place = context.devices.world.currentPlace()) place->litres_est += sprayed;
-    world.sprayed_l_est = pumps.sprayed_l_est;
-    world.tank_l_est = pumps.tank_l_est;
+    const double sprayed = std::max(0.0, pumps.sprayed_l_est - belief.sprayed_l_est);
+    if (FirePlace* place = belief.currentPlace()) place->litres_est += sprayed;
+    belief.sprayed_l_est = pumps.sprayed_l_est;
+    belief.tank_l_est = pumps.tank_l_est;
   }
 
-  void observe(Stamp now) {
-    WorldState& world = context.world();
-    world.X_map_base = context.devices.pose();
-    world.pose_stamp = now;
-    countWater();
-  }
-
-  void save(const FsmCheckpoint& fsm, bool durable) {
-    last_save = context.devices.clock.now();
-    if (writer)
-      writer->write(encodeCheckpoint({last_save, fsm, context.devices.world.state(), saved_holds}),
-                    durable);
+  void takeHeat(FireMission& mission) {
+    const FireDevices& devices = context.devices;
+    heat->dispatch();
+    for (HeatTask::Result& result : heat->take()) {
+      if (const auto X_map_flange = devices.X_map_flange(result.image->stamp)) {
+        const Eigen::Isometry3d X_map_thermal =
+            *X_map_flange * devices.robot.X_flange_thermal.pose();
+        mission.onDetections(result.detections, X_map_thermal);
+        report.addEstimate(heat->sweep().estimate(), result.detections.stamp, X_map_thermal);
+      }
+      devices.publish_thermal(result.image);
+      devices.publish_heat(std::move(result.detections));
+    }
   }
 
   void placeMoved(std::size_t index) {
-    const FirePlace& place = context.world().places[index];
-    context.devices.move_place(index, place.p_plate_map, place.facing_rad);
+    const FirePlace& place = context.belief.places[index];
+    context.devices.arena.movePlace(index, place.p_plate_map, place.facing_rad);
   }
 
-  /// A full disk costs the resume, not the mission.
-  void watchStorage(Stamp now) {
-    const std::optional<Error> problem = writer ? writer->problem() : std::nullopt;
-    if (problem && !storage_alarm) {
-      logger("mission.fire")->error("checkpoint not kept: {}", problem->message);
-      storage_alarm = Alarm{"storage.checkpoint", AlarmLevel::Caution, problem->message,
-                            "The mission goes on but could not be resumed; free the disk", now};
-    }
-    if (!problem) storage_alarm.reset();
-  }
-
-  const Options options;
-  std::unique_ptr<CheckpointWriter> writer;
+  std::unique_ptr<HeatTask> heat;  ///< before the context, which holds its sweep
   FireContext context;
-  MappingContext mapping;
+  FireReport report;
   std::unique_ptr<Machine> machine;
-  std::optional<Alarm> storage_alarm;
-  Stamp last_save;
-  std::function<std::vector<MissionHold>()> holds = [] { return std::vector<MissionHold>{}; };
-  std::vector<MissionHold> saved_holds, restored_holds;
 };
 
 FireMission::FireMission(const FireDevices& devices, const FireConfig& config,
-                         const SprayCalibration& calibration, const Options& options)
-    : impl_(std::make_unique<Impl>(devices, config, calibration, options)) {}
+                         const SprayCalibration& calibration, const std::string& mission_uuid,
+                         std::unique_ptr<HeatTask> heat)
+    : impl_(std::make_unique<Impl>(devices, config, calibration, mission_uuid, std::move(heat))) {}
 FireMission::~FireMission() = default;
 
 Machine& FireMission::machine() { return *impl_->machine; }
-const Machine& FireMission::machine() const { return *impl_->machine; }
+const FireBelief& FireMission::belief() const { return impl_->context.belief; }
+FireBelief& FireMission::belief() { return impl_->context.belief; }
+double FireMission::limitS() const { return impl_->context.config.clock.limit_s; }
 
-void FireMission::start(Stamp now) {
-  Impl& m = *impl_;
-  if (m.machine->begun()) {  // a mission after another: nothing was done yet, the water is gone
-    WorldState fresh = initialWorld(m.context.devices.arena);
-    const WorldState& before = m.context.world();
-    fresh.resets = before.resets;
-    fresh.sprayed_l_est = before.sprayed_l_est;
-    fresh.tank_l_est = before.tank_l_est;
-    m.context.devices.world.edit() = std::move(fresh);
-    m.context.aim.reset();
-    m.context.place_checks.clear();
-    m.mapping.passed = 0;
-    m.mapping.faults = 0;
-  }
-  m.context.devices.world.startClock(now);
-  m.machine->start(m.machine->begun() ? randomUuid() : std::string(), now);
+void FireMission::beginAnew(Stamp) {
+  FireContext& c = impl_->context;
+  FireBelief fresh = initialFireBelief(c.devices.arena);  // the water that was sprayed is gone
+  fresh.sprayed_l_est = c.belief.sprayed_l_est;
+  fresh.tank_l_est = c.belief.tank_l_est;
+  c.belief = std::move(fresh);
+  c.aim.reset();
+  c.place_checks.clear();
+  impl_->report = {};
 }
 
-void FireMission::tick(Stamp now) {
-  Impl& m = *impl_;
-  m.observe(now);
-  m.machine->step(now);
-  const bool running = m.machine->running();
-  if (auto holds = m.holds(); running && !sameHolds(holds, m.saved_holds)) {
-    m.saved_holds = std::move(holds);
-    m.save(m.machine->checkpoint(), true);
-  }
-  if (running && now - m.last_save >= fromSeconds(m.context.config.checkpoint_period_s))
-    m.save(m.machine->checkpoint(), false);
-  m.watchStorage(now);
-  m.context.devices.world.publish();
-}
-
-void FireMission::flushCheckpoint() {
-  if (impl_->writer) impl_->writer->flush();
+void FireMission::observe(Stamp) {
+  impl_->countWater();
+  if (impl_->heat) impl_->takeHeat(*this);
+  for (const auto& [name, check] : impl_->context.place_checks) impl_->report.addPlaceCheck(check);
 }
 
 void FireMission::onDetections(const HeatDetections& detections,
@@ -161,63 +108,58 @@ void FireMission::onDetections(const HeatDetections& detections,
   impl_->context.heat.onDetections(detections, X_map_thermal);
 }
 
+void FireMission::onThermal(ThermalImagePtr image) {
+  if (impl_->heat) impl_->heat->onThermal(std::move(image));
+}
+
+std::uint64_t FireMission::droppedFrames() const {
+  return impl_->heat ? impl_->heat->droppedFrames() : 0;
+}
+
 void FireMission::onReset(Stamp now) {
-  Impl& m = *impl_;
-  WorldState& world = m.context.world();
-  ++world.resets;
-  world.inside = false;
-  world.at_place = world.current_place = -1;
-  world.entry_faults = world.blocked_in_row = 0;
-  m.context.aim.reset();
-  m.mapping.passed = 0;
-  m.context.haltAll(now);
-  if (m.machine->status(now).running)
-    m.machine->restart(fmt::format("reset {}", world.resets), now);
+  FireContext& c = impl_->context;
+  c.belief.inside = false;
+  c.belief.at_place = c.belief.current_place = -1;
+  c.belief.entry_faults = c.belief.blocked_in_row = 0;
+  c.aim.reset();
+  c.haltAll(now);
 }
 
-Result<void> FireMission::resumeFrom(const std::string& path, Stamp now) {
-  Impl& m = *impl_;
-  auto loaded = loadCheckpoint(path);
-  if (!loaded) return tl::make_unexpected(loaded.error());
-  const std::size_t places = m.context.devices.arena.fire_places.size();
-  if (loaded->world.places.size() != places ||
-      loaded->world.current_place >= static_cast<int>(places) ||
-      loaded->world.at_place >= static_cast<int>(places))
-    return makeError(
-        ErrorCode::InvalidInput,
-        "{}: the checkpoint knows {} fire places, the arena has {}; start without --resume", path,
-        loaded->world.places.size(), places);
-  m.restored_holds = loaded->holds;
-  WorldState before = m.context.world();
-  m.context.devices.world.restore(std::move(loaded->world), loaded->stamp, now);
-  m.context.devices.pumps.restoreEstimate(m.context.world().sprayed_l_est,
-                                          m.context.world().tank_l_est);
-  auto restored = m.machine->restore(loaded->fsm, now);
-  if (!restored) m.context.world() = std::move(before);
-  for (std::size_t i = 0; i < places; ++i) m.placeMoved(i);
-  return restored;
+nlohmann::json FireMission::save() const { return fireBeliefToJson(impl_->context.belief); }
+
+Result<void> FireMission::restore(const nlohmann::json& saved) {
+  FireContext& c = impl_->context;
+  auto belief = fireBeliefFromJson(saved, c.devices.arena.fire_places.size());
+  if (!belief) return tl::make_unexpected(belief.error());
+  c.belief = std::move(*belief);
+  c.devices.pumps.restoreEstimate(c.belief.sprayed_l_est, c.belief.tank_l_est);
+  for (std::size_t i = 0; i < c.belief.places.size(); ++i) impl_->placeMoved(i);
+  return {};
 }
 
-void FireMission::keepHolds(std::function<std::vector<MissionHold>()> holds) {
-  impl_->holds = std::move(holds);
+Result<void> FireMission::command(const CommandBody& body, const std::string& operator_name,
+                                  Stamp now) {
+  if (const auto* nudge = std::get_if<NudgePlace>(&body))
+    return nudgePlace(nudge->place, nudge->by);
+  if (const auto* despite = std::get_if<ContinueDespite>(&body))
+    return continueDespite(despite->subject, operator_name, now);
+  return Mission::command(body, operator_name, now);
 }
-
-const std::vector<MissionHold>& FireMission::restoredHolds() const { return impl_->restored_holds; }
 
 Result<void> FireMission::nudgePlace(const std::string& name, const Pose2& by) {
   Impl& m = *impl_;
-  const auto& places = m.context.world().places;
+  const auto& places = m.context.belief.places;
   const auto found = std::find_if(places.begin(), places.end(),
                                   [&](const FirePlace& place) { return place.name == name; });
   if (found == places.end())
     return makeError(ErrorCode::InvalidInput, "there is no fire place '{}'", name);
   const FsmStatus fsm = m.machine->status(m.context.devices.clock.now());
-  const bool current = &*found == m.context.devices.world.currentPlace();
+  const bool current = &*found == m.context.belief.currentPlace();
   if (current && fsm.running && !fsm.paused && worksAtPlace(fsm.state))
     return makeError(ErrorCode::Refused, "the arm works before {} ({}); pause the mission first",
                      name, fsm.state);
   const auto index = static_cast<std::size_t>(found - places.begin());
-  if (auto moved = m.context.devices.world.nudgePlace(index, by); !moved) return moved;
+  if (auto moved = m.context.belief.nudgePlace(index, by); !moved) return moved;
   m.placeMoved(index);
   if (const auto check = m.context.place_checks.find(name); check != m.context.place_checks.end())
     check->second.X_map_configured =
@@ -232,7 +174,7 @@ Result<void> FireMission::continueDespite(const std::string& subject,
                                           const std::string& operator_name, Stamp now) {
   Impl& m = *impl_;
   const FsmStatus fsm = m.machine->status(now);
-  const FirePlace* place = m.context.devices.world.currentPlace();
+  const FirePlace* place = m.context.belief.currentPlace();
   if (fsm.state != "PlaceRefused" || !place || place->name != subject)
     return makeError(ErrorCode::Refused, "no check objects to '{}' now", subject);
   const ChangeStateResult changed =
@@ -250,36 +192,54 @@ std::vector<PlaceCheck> FireMission::placeChecks() const {
 
 std::vector<FirePlaceInfo> FireMission::places() const {
   std::vector<FirePlaceInfo> out;
-  for (const FirePlace& place : impl_->context.world().places)
+  for (const FirePlace& place : impl_->context.belief.places)
     out.push_back({place.name, place.p_plate_map, place.facing_rad, place.visited, place.nudge});
   return out;
 }
 
-std::vector<FireEstimate> FireMission::fires() const {
-  std::vector<FireEstimate> out;
-  const FirePlace* current = impl_->context.devices.world.currentPlace();
-  for (const FirePlace& place : impl_->context.world().places) {
+std::vector<MissionAlarm> FireMission::alarms(Stamp now) const {
+  std::vector<MissionAlarm> out;
+  const FsmStatus fsm = impl_->machine->status(now);
+  if (fsm.running && fsm.state == "PlaceRefused")
+    out.push_back({"place.refused", AlarmLevel::Caution, fsm.display_text,
+                   "compare configured and sensed outline, nudge the place or force Arm search"});
+  const std::string late = impl_->heat ? impl_->heat->late(now) : std::string();
+  if (fsm.running && !late.empty())
+    out.push_back({"heat.late", AlarmLevel::Warning, "Perception does not deliver: " + late,
+                   "the picture is old: do not aim by it; restart the daemon"});
+  return out;
+}
+
+std::vector<Check> FireMission::checks(Stamp now) const {
+  return impl_->heat ? impl_->heat->checks(now) : std::vector<Check>{};
+}
+
+void FireMission::describe(RobotStatus& status, Stamp) const {
+  const PumpTracking water = impl_->context.devices.pumps.tracking();
+  status.water = {water.duty, water.current_a, water.tank_l_est, water.sprayed_l_est};
+  status.score_est = scoreEstimate(impl_->context.belief);
+}
+
+void FireMission::describe(Scene& scene, Stamp now) const {
+  FireContext& c = impl_->context;
+  scene.places = places();
+  scene.place_checks = placeChecks();
+  const FirePlace* current = c.belief.currentPlace();
+  for (const FirePlace& place : c.belief.places) {
     std::optional<FireEstimate> estimate = place.estimate;
-    if (&place == current && impl_->context.heat.listening()) estimate = impl_->context.estimate();
-    if (estimate) out.push_back(*estimate);
+    if (&place == current && c.heat.listening()) estimate = c.estimate();
+    if (estimate) scene.fires.push_back(*estimate);
   }
-  return out;
+  scene.jet.stamp = now;
+  scene.jet.spraying = c.devices.pumps.tracking().spraying;
+  if (const auto X_map_nozzle = c.X_map_nozzle())
+    scene.jet.points_map =
+        jetPoints(c.calibration, *X_map_nozzle, c.hasPlace() ? c.flowScale() : 1.0);
 }
 
-JetPreview FireMission::jetPreview(Stamp now) const {
-  const FireContext& c = impl_->context;
-  JetPreview out;
-  out.stamp = now;
-  out.spraying = c.devices.pumps.tracking().spraying;
-  const auto X_map_nozzle = c.X_map_nozzle();
-  if (X_map_nozzle)
-    out.points_map = jetPoints(c.calibration, *X_map_nozzle, c.hasPlace() ? c.flowScale() : 1.0);
-  return out;
-}
-
-std::vector<Alarm> FireMission::alarms() const {
-  if (!impl_->storage_alarm) return {};
-  return {*impl_->storage_alarm};
+void FireMission::report(nlohmann::json& report) const {
+  report["litres_est"] = impl_->context.belief.sprayed_l_est;
+  impl_->report.write(report);
 }
 
 }  // namespace kiln

@@ -31,7 +31,7 @@ Transition fireInterrupt(FireContext& context, Stamp now) {
         context, fmt::format("arm: {}", arm.powered ? toString(arm.safety) : "not powered"));
   }
   const FireClockConfig& clock = context.config.clock;
-  const double elapsed_s = context.world().elapsedS(now);
+  const double elapsed_s = context.elapsedS(now);
   if (elapsed_s >= clock.limit_s - clock.wrap_up_s)
     return interruptTo<TimeNearlyOver>(
         context, fmt::format("{:.0f} s of {:.0f} s are over", elapsed_s, clock.limit_s));

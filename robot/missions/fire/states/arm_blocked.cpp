@@ -18,7 +18,7 @@ void ArmBlocked::enter() {
 
 void ArmBlocked::arrive() {
   FireContext& c = context();
-  ++c.world().blocked_in_row;
+  ++c.belief.blocked_in_row;
   if (c.hasPlace()) ++c.place().arm_faults;
 }
 
@@ -28,7 +28,7 @@ Transition ArmBlocked::execute() {
   display(why_ + "; withdrawing");
   const bool rested = toSeconds(timeInState()) >= c.config.faults.arm_rest_s;
   if (arm.phase == SkillPhase::Running || !rested) return stay();
-  const int in_row = c.world().blocked_in_row;
+  const int in_row = c.belief.blocked_in_row;
   if (in_row >= c.config.faults.max_blocked_in_row)
     return transit<SafeStop>().because(
         fmt::format("the arm was blocked {} times: {}", in_row, why_));

@@ -12,7 +12,7 @@ void ArmSearch::arrive() { ++context().place().searches; }
 void ArmSearch::enter() {
   FireContext& c = context();
   c.aim.reset();
-  c.sweep_started_s = c.world().elapsedS(now());
+  c.sweep_started_s = c.elapsedS(now());
   c.heat.begin(c.placeNormal());
   c.look.start(c.X_map_base(), c.place().p_plate_map, c.placeNormal(), now());
 }

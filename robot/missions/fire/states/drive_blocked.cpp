@@ -11,17 +11,17 @@ void DriveBlocked::enter() { context().devices.base.cancel(); }
 
 void DriveBlocked::arrive() {
   FireContext& c = context();
-  if (c.world().inside && c.hasPlace())
+  if (c.belief.inside && c.hasPlace())
     ++c.place().drive_faults;
   else
-    ++c.world().entry_faults;
+    ++c.belief.entry_faults;
 }
 
 Transition DriveBlocked::execute() {
   FireContext& c = context();
   display(why_);
   if (toSeconds(timeInState()) < c.config.drive.rest_s) return stay();
-  if (!c.world().inside || !c.hasPlace()) return outside();
+  if (!c.belief.inside || !c.hasPlace()) return outside();
   if (c.place().drive_faults <= c.config.drive.max_faults)
     return transit<DriveToLocation>().because("trying once more");
   c.closePlace("cannot be reached: " + why_);
@@ -30,7 +30,7 @@ Transition DriveBlocked::execute() {
 
 Transition DriveBlocked::outside() {
   FireContext& c = context();
-  if (c.world().entry_faults <= c.config.drive.max_faults)
+  if (c.belief.entry_faults <= c.config.drive.max_faults)
     return transit<EnterBuilding>().because("trying once more");
   return transit<SafeStop>().because("the building cannot be entered: " + why_);
 }

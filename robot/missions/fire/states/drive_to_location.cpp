@@ -14,9 +14,9 @@ void DriveToLocation::enter() {
   const RobotGeometry& robot = c.devices.robot;
   const double radius_m =
       0.5 * std::hypot(robot.length_m, robot.width_m) + c.config.drive.clearance_m;
-  const WorldState& world = c.world();
-  c.drive.start(routeToPlace(c.devices.arena, c.devices.pose(), world.at_place, world.current_place,
-                             radius_m),
+  const FireBelief& belief = c.belief;
+  c.drive.start(routeToPlace(c.devices.arena, c.devices.pose(), belief.at_place,
+                             belief.current_place, radius_m),
                 now());
 }
 
@@ -26,8 +26,8 @@ Transition DriveToLocation::execute() {
   guard("Arm stowed", c.drive.stowed());
   display(c.place().name + ": " + drive.text);
   if (drive.phase == SkillPhase::Done) {
-    c.world().at_place = c.world().current_place;
-    c.world().blocked_in_row = 0;
+    c.belief.at_place = c.belief.current_place;
+    c.belief.blocked_in_row = 0;
     return transit<CheckPlace>().because("before " + c.place().name);
   }
   if (drive.phase == SkillPhase::Failed && c.drive.armFailed())

@@ -12,7 +12,7 @@ void EnterBuilding::enter() {
   std::vector<Pose2> route;
   for (const GroundPoseConfig& way_point : c.devices.arena.entry_path)
     route.push_back(way_point.pose());
-  c.world().at_place = -1;
+  c.belief.at_place = -1;
   c.drive.start(remaining(c.devices.arena.start.pose(), route, c.devices.pose()), now());
 }
 
@@ -22,8 +22,8 @@ Transition EnterBuilding::execute() {
   guard("Arm stowed", c.drive.stowed());
   display(drive.text);
   if (drive.phase == SkillPhase::Done) {
-    c.world().inside = true;
-    c.world().blocked_in_row = 0;
+    c.belief.inside = true;
+    c.belief.blocked_in_row = 0;
     return transit<NextLocation>().because("inside the building");
   }
   if (drive.phase == SkillPhase::Failed && c.drive.armFailed())

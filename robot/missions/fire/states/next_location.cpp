@@ -10,9 +10,9 @@ namespace kiln {
 namespace {
 
 /// What was tried in the round before does not count against the next.
-void beginRound(WorldState& world) {
-  ++world.search_round;
-  for (FirePlace& place : world.places) {
+void beginRound(FireBelief& belief) {
+  ++belief.search_round;
+  for (FirePlace& place : belief.places) {
     place.visited = place.extinguished;
     place.searches = place.losses = place.pump_faults = place.arm_faults = place.drive_faults = 0;
   }
@@ -22,18 +22,18 @@ void beginRound(WorldState& world) {
 
 Transition NextLocation::execute() {
   FireContext& c = context();
-  WorldState& world = c.world();
-  if (!guard("Inside the building", world.inside))
+  FireBelief& belief = c.belief;
+  if (!guard("Inside the building", belief.inside))
     return transit<EnterBuilding>().because("still outside");
-  if (world.nextPlace() < 0 && !world.anyExtinguished() &&
-      world.search_round < c.config.search.max_rounds)
-    beginRound(world);
-  const int next = world.nextPlace();
-  world.current_place = next;
+  if (belief.nextPlace() < 0 && !belief.anyExtinguished() &&
+      belief.search_round < c.config.search.max_rounds)
+    beginRound(belief);
+  const int next = belief.nextPlace();
+  belief.current_place = next;
   c.aim.reset();
   if (guard("Has next location", next >= 0))
     return transit<DriveToLocation>().because(
-        fmt::format("{}, round {}", c.place().name, world.search_round));
+        fmt::format("{}, round {}", c.place().name, belief.search_round));
   return transit<ParkArm>().because("all places were visited");
 }
 

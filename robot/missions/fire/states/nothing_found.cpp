@@ -6,7 +6,7 @@ void NothingFound::enter() {
   FireContext& c = context();
   c.haltAll(now());
   std::string text = "no fire was put out";
-  for (const FirePlace& place : c.world().places) text += "; " + place.name + ": " + place.outcome;
+  for (const FirePlace& place : c.belief.places) text += "; " + place.name + ": " + place.outcome;
   display(text);
 }
 

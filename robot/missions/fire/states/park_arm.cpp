@@ -20,7 +20,7 @@ Transition ParkArm::execute() {
   // Water was delivered or not; an arm that cannot fold does not change that.
   const std::string note =
       arm.phase == SkillPhase::Failed ? "arm not parked: " + arm.text : "arm parked";
-  if (c.world().anyExtinguished()) return transit<Finished>().because(note);
+  if (c.belief.anyExtinguished()) return transit<Finished>().because(note);
   return transit<NothingFound>().because(note);
 }
 

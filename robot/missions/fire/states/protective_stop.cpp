@@ -28,7 +28,7 @@ Transition ProtectiveStop::execute() {
       guard("Arm released by the operator", armIsReleased(c),
             arm ? std::string(toString(arm->safety)) : std::string("no arm state"),
             arm ? toSeconds(now() - arm->stamp) : -1.0);
-  if (c.world().elapsedS(now()) >= c.config.clock.limit_s)
+  if (c.elapsedS(now()) >= c.config.clock.limit_s)
     return transit<SafeStop>().because("the mission clock ran out before the arm was released");
   if (!released) {
     released_.reset();
@@ -42,7 +42,7 @@ Transition ProtectiveStop::execute() {
 
 Transition ProtectiveStop::goOn() {
   FireContext& c = context();
-  if (!c.hasPlace() || c.place().visited || !c.world().inside)
+  if (!c.hasPlace() || c.place().visited || !c.belief.inside)
     return transit<NextLocation>().because("released");
   if (c.place().arm_faults > c.config.faults.max_arm_faults) {
     c.closePlace("protective stop");

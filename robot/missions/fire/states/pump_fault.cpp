@@ -21,7 +21,7 @@ Transition PumpFault::execute() {
   if (toSeconds(timeInState()) < c.config.faults.pump_rest_s) return stay();
   if (c.place().pump_faults <= c.config.faults.max_pump_faults)
     return transit<StartPump>().because("trying once more");
-  auto& usable = c.world().pump_usable;
+  auto& usable = c.belief.pump_usable;
   const bool other_works = (usable[0] && !broken_[0]) != (usable[1] && !broken_[1]);
   if (usable[0] && usable[1] && other_works) {
     usable = {!broken_[0], !broken_[1]};
@@ -29,7 +29,7 @@ Transition PumpFault::execute() {
                                                    : "with the left pump alone");
   }
   c.closePlace("the pumps do not run");
-  if (c.world().nextPlace() >= 0) return transit<NextLocation>().because(c.place().outcome);
+  if (c.belief.nextPlace() >= 0) return transit<NextLocation>().because(c.place().outcome);
   return transit<SafeStop>().because(c.place().outcome);
 }
 

@@ -18,7 +18,7 @@ Transition StartPump::execute() {
   bool drawing = true;
   bool water = false;
   for (std::size_t i = 0; i < 2; ++i) {
-    if (!c.world().pump_usable[i]) continue;
+    if (!c.belief.pump_usable[i]) continue;
     drawing = drawing && pumps.duty[i] > 0.0 && pumps.current_a[i] >= spray.min_current_a;
     water = water || pumps.tank_l_est[i] >= spray.min_start_l;
   }

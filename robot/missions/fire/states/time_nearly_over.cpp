@@ -18,7 +18,7 @@ Transition TimeNearlyOver::execute() {
   const SkillStatus arm = c.devices.arm.poll(now());
   const bool late = toSeconds(timeInState()) >= c.config.clock.park_limit_s;
   if (arm.phase == SkillPhase::Running && !late) return stay();
-  if (guard("A fire got its water", c.world().anyExtinguished()))
+  if (guard("A fire got its water", c.belief.anyExtinguished()))
     return transit<Finished>().because("time is over");
   return transit<SafeStop>().because("time is over and no fire was put out");
 }

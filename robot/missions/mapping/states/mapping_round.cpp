@@ -32,11 +32,6 @@ void MappingRound::enter() {
 
 Transition MappingRound::execute() {
   MappingContext& c = context();
-  if (c.arena.mapping_path.empty()) {
-    c.faults = c.max_faults;
-    return transit<MappingBlocked>("arena '" + c.arena.name + "' has no mapping_path")
-        .because("no path");
-  }
   const SkillStatus drive = c.drive.poll(now());
   const Pose2 here = c.pose();
   while (c.passed + 1 < c.arena.mapping_path.size()) {

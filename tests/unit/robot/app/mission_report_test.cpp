@@ -3,52 +3,56 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-namespace kiln {
+#include "tests/support/machine_mission.h"
+#include "tests/unit/robot/fsm/kettle.h"
+
+namespace kiln::kettle {
 namespace {
 
-Stamp at(double s) { return Stamp{fromSeconds(s)}; }
+struct Reported : Fixture {
+  StopLatch stop;
+  MachineMission mission{machine};
+  RobotBelief belief;
+  MissionHost host{mission, belief, stop, clock};
+  MissionReport report{clock.now()};
 
-FsmStatus statusWith(std::vector<FsmHistoryEntry> history) {
-  FsmStatus status;
-  status.history = std::move(history);
-  return status;
-}
-
-TEST(MissionReport, CollectsEveryStateThoughTheHistoryIsBounded) {
-  MissionReport report("fire", at(10));
-  report.observe(statusWith({{1, "Start", at(10), {}, TransitionCause::Start, ""}}));
-  report.observe(statusWith({{1, "Start", at(10), at(12), TransitionCause::Start, ""},
-                             {2, "Enter", at(12), {}, TransitionCause::Normal, ""}}));
-  // The history has forgotten the first state by now.
-  report.observe(statusWith({{2, "Enter", at(12), at(15.5), TransitionCause::Normal, ""},
-                             {3, "Finished", at(15.5), {}, TransitionCause::Operator, "by Ann"}}));
-  const auto json = nlohmann::json::parse(report.toJson(at(16)));
-  ASSERT_EQ(json["states"].size(), 3U);
-  EXPECT_EQ(json["states"][0]["leave"], 2.0);
-  EXPECT_EQ(json["states"][1]["name"], "Enter");
-  EXPECT_EQ(json["states"][1]["leave"], 5.5);
-  EXPECT_EQ(json["states"][2]["leave"], 6.0) << "the current state lasts until now";
-  EXPECT_EQ(json["states"][2]["cause"], "operator");
-}
+  void tickTo(double s) {
+    run(s);
+    host.tick(clock.now());
+  }
+  [[nodiscard]] nlohmann::json json() const {
+    return nlohmann::json::parse(report.toJson(host, belief.resets, clock.now()));
+  }
+};
 
 TEST(MissionReport, SaysHowTheMissionEnded) {
-  FsmStatus status;
-  MissionReport report("fire", at(0));
-  EXPECT_EQ(nlohmann::json::parse(report.toJson(at(1)))["outcome"], "unfinished");
-  status.terminal = true;
-  report.observe(status);
-  EXPECT_EQ(nlohmann::json::parse(report.toJson(at(1)))["outcome"], "failed");
-  status.success = true;
-  report.observe(status);
-  EXPECT_EQ(nlohmann::json::parse(report.toJson(at(1)))["outcome"], "success");
+  Reported r;
+  r.kettle.switched_on = false;
+  EXPECT_EQ(r.json()["outcome"], "unfinished");
+  EXPECT_EQ(r.json()["mission"], "kettle");
+  r.tickTo(2.0);  // ready, not started
+  r.host.start(r.clock.now());
+  r.tickTo(1.0);
+  ASSERT_EQ(r.force("Spilt").outcome, ChangeStateOutcome::Ok);
+  r.tickTo(0.5);
+  EXPECT_EQ(r.json()["outcome"], "failed");
+  ASSERT_EQ(r.json()["states"].size(), 2U);
+  EXPECT_EQ(r.json()["states"][0]["enter"], 0.0) << "counted from the mission's start";
+  EXPECT_EQ(r.json()["states"][1]["cause"], "operator");
+  EXPECT_NEAR(r.json()["mission_s"].get<double>(), 1.5, 0.1);
 }
 
-TEST(MissionReport, KeepsOneHeatEstimateAnImage) {
-  MissionReport report("fire", at(0));
-  report.addHeatEstimate({at(1), {0, 0, 1}, 1.0, 1.1, 5, "place 1"});
-  report.addHeatEstimate({at(1), {0, 0, 1}, 1.0, 1.1, 5, "place 1"});
-  EXPECT_EQ(nlohmann::json::parse(report.toJson(at(2)))["heat_estimates"].size(), 1U);
+TEST(MissionReport, KeepsTheTrackFiveTimesASecond) {
+  Reported r;
+  for (int i = 0; i < 50; ++i) {
+    MissionReport::TrackRecord record;
+    record.stamp = r.clock.now() + std::chrono::milliseconds(20) * i;
+    r.report.addTrack(record);
+  }
+  EXPECT_EQ(r.json()["track"].size(), 5U);
+  r.report.begin();
+  EXPECT_TRUE(r.json()["track"].empty()) << "another mission";
 }
 
 }  // namespace
-}  // namespace kiln
+}  // namespace kiln::kettle

@@ -12,8 +12,8 @@ PreflightInputs healthy() {
   PreflightInputs in;
   in.devices_connected = true;
   in.arm_age_s = in.base_age_s = in.pumps_age_s = 0.01;
-  in.lidar_age_s = in.thermal_age_s = 0.1;
-  in.cloud_age_s = in.heat_age_s = 0.2;
+  in.lidar_age_s = 0.1;
+  in.cloud_age_s = 0.2;
   in.pose_health = PoseHealth::Good;
   in.battery_v = 29.0;
   in.tree_edges = 10;
@@ -62,12 +62,8 @@ TEST(Preflight, NamesEachFailureWithWhatToDo) {
       {"Pump current", [&](auto& in) { in.pumps->current_a[0] = kNaN; }},
       {"Pump current", [](auto& in) { in.pumps->heartbeat_lost = true; }},
       {"LiDAR", [](auto& in) { in.lidar_age_s = 2.1; }},
-      {"Thermal camera", [](auto& in) { in.thermal_age_s = 3.0; }},
-      {"Thermal camera", [](auto& in) { in.thermal_usable = false; }},
       {"Perception", [](auto& in) { in.cloud_age_s = 1.4; }},
       {"Perception", [](auto& in) { in.cloud_age_s.reset(); }},
-      {"Perception", [](auto& in) { in.heat_age_s = 3.0; }},
-      {"Perception", [](auto& in) { in.heat_age_s.reset(); }},
       {"Transforms", [](auto& in) { in.missing_edges = {"flange -> lidar"}; }},
       {"Clocks", [](auto& in) { in.clocks[1].error_s = -2.0; }},
       {"Clocks", [&](auto& in) { in.clocks[0].error_s = kNaN; }},

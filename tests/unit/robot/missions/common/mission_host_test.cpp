@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/machine_mission.h"
 #include "tests/unit/robot/fsm/kettle.h"
 
 namespace kiln::kettle {
@@ -10,7 +11,9 @@ namespace {
 /// The kettle's machine under a host.
 struct Desk : Fixture {
   StopLatch stop;
-  MissionHost host{machine, stop, [this](Stamp now) { machine.start("", now); }};
+  MachineMission mission{machine};
+  RobotBelief belief;
+  MissionHost host{mission, belief, stop, clock};
   Desk() { kettle.switched_on = false; }
   [[nodiscard]] Stamp now() const { return clock.now(); }
   void begin() {
@@ -20,6 +23,18 @@ struct Desk : Fixture {
   void press() {
     (void)stop.set("Ann", now());
     (void)host.observeStop(now());
+  }
+  /// A checkpoint of a mission that stood in `state`.
+  [[nodiscard]] MissionCheckpoint saved(const std::string& state = "Idle") const {
+    MissionCheckpoint out = host.checkpoint();
+    out.fsm = {"kettle", "u", 5, state, state};
+    return out;
+  }
+  Result<void> restore(std::vector<MissionHold> holds, const std::string& state = "Idle") {
+    MissionCheckpoint checkpoint = saved(state);
+    checkpoint.holds = std::move(holds);
+    const auto read = decodeCheckpoint(encodeCheckpoint(checkpoint), "f");
+    return read ? host.restore(*read, now()) : tl::make_unexpected(read.error());
   }
   [[nodiscard]] bool clear() { return host.clearStop(stop.generation(), now()); }
   /// Whether a second changes anything that the machine does.
@@ -70,8 +85,7 @@ TEST(MissionHost, AStopEndsTheWaitingForAStart) {
 
 TEST(MissionHost, AStopEndsTheWaitingForAResume) {
   Desk d;
-  ASSERT_TRUE(d.machine.restore({"kettle", "u", 5, "Idle", "Idle"}, d.now()).has_value());
-  d.host.restored({}, d.now());
+  ASSERT_TRUE(d.restore({}).has_value());
   EXPECT_EQ(d.host.phase(), MissionPhase::Waiting);
   EXPECT_FALSE(d.moves());
   d.press();
@@ -144,9 +158,9 @@ TEST(MissionHost, AClearEndsOnlyTheStopThatItNames) {
 
 TEST(MissionHost, WhatHeldItBeforeARestartHoldsItAfter) {
   Desk d;
-  ASSERT_TRUE(d.machine.restore({"kettle", "u", 5, "Idle", "Idle"}, d.now()).has_value());
-  d.host.restored({{HoldReason::Stop, "STOP by Ann"}, {HoldReason::Teleop, "Ann drives by hand"}},
-                  d.now());
+  ASSERT_TRUE(
+      d.restore({{HoldReason::Stop, "STOP by Ann"}, {HoldReason::Teleop, "Ann drives by hand"}})
+          .has_value());
   EXPECT_TRUE(d.stop.latched());
   EXPECT_EQ(d.host.waiting(), MissionHost::Wait::None);
   EXPECT_TRUE(d.host.observeStop(d.now()));
@@ -160,10 +174,81 @@ TEST(MissionHost, WhatHeldItBeforeARestartHoldsItAfter) {
 
 TEST(MissionHost, WhatHadEndedBeforeARestartHasEnded) {
   Desk d;
-  ASSERT_TRUE(d.machine.restore({"kettle", "u", 5, "Served", "Served"}, d.now()).has_value());
-  d.host.restored({}, d.now());
+  ASSERT_TRUE(d.restore({}, "Served").has_value());
   d.host.check();
   EXPECT_EQ(d.host.phase(), MissionPhase::Ended);
+}
+
+// The report of a mission knows what was before a kill.
+TEST(MissionHost, ItsLogAndClockGoOnAfterARestart) {
+  Desk before;
+  before.begin();
+  before.host.tick(before.now());
+  const Stamp begun = before.host.log().begun();
+  const MissionCheckpoint kept = before.host.checkpoint();
+  Desk after;
+  after.clock.advanceBy(std::chrono::seconds(7));
+  ASSERT_TRUE(after.host.restore(kept, after.now()).has_value());
+  after.host.resume(after.now());
+  after.host.tick(after.now());
+  EXPECT_EQ(after.host.log().begun(), begun);
+  EXPECT_NEAR(after.belief.elapsedS(after.now()), 7.0, 1.0);
+  const auto& states = after.host.log().states();
+  ASSERT_EQ(states.size(), 2U) << "as it stood, and resumed";
+  EXPECT_EQ(states[0].entered, begun);
+  EXPECT_EQ(states[0].left, kept.stamp) << "it did not last while the program was dead";
+  EXPECT_EQ(states[1].cause, TransitionCause::Resume);
+  EXPECT_EQ(after.status().mission_uuid, before.status().mission_uuid);
+}
+
+// Robot time began anew: stamps of before are moved, lengths stay.
+TEST(MissionHost, ItsLogSurvivesARestartOfTheComputer) {
+  Desk before;
+  before.clock.advanceBy(std::chrono::seconds(500));
+  before.begin();
+  before.run(3.0);
+  before.host.tick(before.now());
+  Desk after;
+  const MissionCheckpoint kept = before.host.checkpoint();
+  ASSERT_LT(after.now(), kept.stamp);
+  ASSERT_TRUE(after.host.restore(kept, after.now()).has_value());
+  EXPECT_EQ(after.now() - after.host.log().begun(), kept.stamp - before.host.log().begun());
+  EXPECT_NEAR(after.belief.elapsedS(after.now()), before.belief.elapsedS(before.now()), 0.1);
+}
+
+TEST(MissionHost, RefusesAnotherMissionsCheckpoint) {
+  Desk d;
+  MissionCheckpoint other = d.saved();
+  other.fsm.mission = "teapot";
+  const auto refused = d.host.restore(other, d.now());
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_NE(refused.error().message.find("teapot"), std::string::npos);
+}
+
+TEST(MissionHost, AResetBeginsTheStatesAnewAndKeepsTheClock) {
+  Desk d;
+  d.begin();
+  d.run(2.0);
+  const double elapsed_s = d.belief.elapsedS(d.now());
+  d.host.hold(HoldReason::OperatorPause, "pause", d.now());
+  d.host.onReset(d.now());
+  EXPECT_EQ(d.belief.resets, 1);
+  EXPECT_GE(d.belief.elapsedS(d.now()), elapsed_s);
+  EXPECT_EQ(d.host.phase(), MissionPhase::Held) << "and moves nothing by itself";
+  EXPECT_FALSE(d.moves());
+}
+
+TEST(MissionHost, ASecondStartIsAnotherMission) {
+  Desk d;
+  d.begin();
+  d.run(2.0);
+  const std::string first = d.status().mission_uuid;
+  ASSERT_EQ(d.force("Spilt").outcome, ChangeStateOutcome::Ok);
+  d.begin();
+  EXPECT_NE(d.status().mission_uuid, first);
+  EXPECT_LT(d.belief.elapsedS(d.now()), 1.0) << "its clock begins anew";
+  d.host.tick(d.now());
+  EXPECT_EQ(d.host.log().states().front().cause, TransitionCause::Start);
 }
 
 TEST(MissionHost, NamesEachReason) {

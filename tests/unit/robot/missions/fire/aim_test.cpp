@@ -110,7 +110,7 @@ TEST(LostTarget, GoesToTheNextLocationTheSecondTime) {
   rig.hidden = false;
   ASSERT_TRUE(rig.runToEnd());
   EXPECT_EQ(rig.state(), "Finished");
-  EXPECT_EQ(rig.world->state().search_round, 2);
+  EXPECT_EQ(rig.mission->belief().search_round, 2);
 }
 
 TEST(LostTarget, AFrozenShutterIsNotALoss) {

@@ -60,7 +60,7 @@ TEST(ArmBlocked, APlaceOutOfReachIsGivenUp) {
 TEST(ArmBlocked, AnArmThatCannotBeStowedEndsInTheSafeStopWithoutDriving) {
   FireRig rig({.start = false});
   for (int i = 0; i < 10; ++i) rig.arm.failNext("joints", "stuck");
-  rig.mission->start(rig.clock.now());
+  rig.host->start(rig.clock.now());
   ASSERT_TRUE(rig.runToEnd());
   EXPECT_EQ(rig.state(), "SafeStop");
   EXPECT_EQ(rig.base.drives, 0);

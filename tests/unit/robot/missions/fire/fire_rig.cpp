@@ -79,31 +79,31 @@ FireRig::FireRig(const Options& options)
   sweep.p_plate_map =
       Eigen::Vector3d(plate[0], plate[1], plate[2]) + Eigen::Vector3d(0.04, -0.06, 0.0);
   build();
-  if (options.start) mission->start(clock.now());
+  if (options.start) host->start(clock.now());
 }
 
 void FireRig::build() {
+  host.reset();
   mission.reset();
   pumps = std::make_unique<PumpController>(PumpController::Config{}, pumps_device, stop);
-  world = std::make_unique<WorldModel>(initialWorld(arena));
-  const FireDevices devices{
-      clock,
-      arena,
-      robot,
-      *world,
-      base,
-      arm,
-      arm_device,
-      *pumps,
-      sweep,
-      [this] { return base.pose(); },
-      surroundings,
-      [this](std::size_t place, const Eigen::Vector3d& p_plate_map, double facing_rad) {
-        arena.movePlace(place, p_plate_map, facing_rad);
-      }};
-  mission =
-      std::make_unique<FireMission>(devices, config, SprayCalibration{},
-                                    FireMission::Options{"test-uuid", options_.checkpoint_path});
+  belief = {};
+  const FireDevices devices{clock,
+                            arena,
+                            robot,
+                            belief,
+                            base,
+                            arm,
+                            arm_device,
+                            *pumps,
+                            sweep,
+                            [this] { return base.pose(); },
+                            surroundings,
+                            [](Stamp) { return std::nullopt; },
+                            [](const ThermalImagePtr&) {},
+                            [](const HeatDetections&) {}};
+  mission = std::make_unique<FireMission>(devices, config, SprayCalibration{}, "test-uuid");
+  host = std::make_unique<MissionHost>(*mission, belief, stop, clock,
+                                       CheckpointKeeper::Config{options_.checkpoint_path});
 }
 
 void FireRig::killAndResume() {
@@ -116,9 +116,11 @@ void FireRig::killAndResume() {
     pumps_device.advance();
     arm_device.advance();
   }
-  const auto resumed = mission->resumeFrom(options_.checkpoint_path, clock.now());
+  const auto saved = loadCheckpoint(options_.checkpoint_path);
+  ASSERT_TRUE(saved.has_value()) << saved.error();
+  const auto resumed = host->restore(*saved, clock.now());
   ASSERT_TRUE(resumed.has_value()) << resumed.error();
-  mission->machine().resume(clock.now());
+  host->resume(clock.now());
 }
 
 void FireRig::run(double seconds) {
@@ -146,7 +148,8 @@ void FireRig::step() {
   arm_device.advance();
   pumps_device.advance();
   if (now >= next_image_) takeImage();
-  mission->tick(now);
+  belief.X_map_base = base.pose();
+  host->tick(now);
   pumps->tick(now);
   const FsmStatus seen = status();
   if (seen.step != last_step_) visited_.push_back(seen.state);

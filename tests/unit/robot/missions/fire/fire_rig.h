@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "robot/missions/common/mission_host.h"
 #include "robot/missions/fire/fire_mission.h"
 #include "tests/unit/robot/missions/fire/fake_motion.h"
 
@@ -73,10 +74,10 @@ class FireRig {
   [[nodiscard]] int countVisits(const std::string& state) const;
   /// Note that the history keeps of the newest entry into a state.
   [[nodiscard]] std::string noteOf(const std::string& state) const;
-  [[nodiscard]] const FirePlace& place(std::size_t i) const { return world->state().places[i]; }
+  [[nodiscard]] const FirePlace& place(std::size_t i) const { return mission->belief().places[i]; }
   [[nodiscard]] bool armAt(const std::vector<double>& q_deg) const;
   [[nodiscard]] bool pumpsRun() const;
-  [[nodiscard]] double missionTime() const { return world->state().elapsedS(clock.now()); }
+  [[nodiscard]] double missionTime() const { return belief.elapsedS(clock.now()); }
 
   ManualClock clock{Stamp{std::chrono::seconds(1000)}};
   ArenaMap arena;
@@ -90,8 +91,9 @@ class FireRig {
   FakeHeatSweep sweep;
   FakeSurroundings surroundings{clock};
   std::unique_ptr<PumpController> pumps;
-  std::unique_ptr<WorldModel> world;
+  RobotBelief belief;
   std::unique_ptr<FireMission> mission;
+  std::unique_ptr<MissionHost> host;
 
   int burning_place = 0;
   bool hidden = false;  ///< something stands before the plate

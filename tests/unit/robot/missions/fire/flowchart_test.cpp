@@ -85,7 +85,7 @@ TEST(FireFlowchart, EndsWhenTheClockIsNearlyOverWithWaterDelivered) {
   FireRig rig;
   ASSERT_TRUE(rig.runToState("StopPump"));
   ASSERT_TRUE(rig.runToState("DriveToLocation"));
-  rig.world->edit().clock_start = rig.clock.now() - fromSeconds(869.0);
+  rig.belief.clock_start = rig.clock.now() - fromSeconds(869.0);
   ASSERT_TRUE(rig.runToState("TimeNearlyOver", 2.0));
   ASSERT_TRUE(rig.runToEnd(60.0));
   EXPECT_EQ(rig.state(), "Finished");
@@ -98,7 +98,7 @@ TEST(FireFlowchart, EndsWhenTheClockIsNearlyOverWhileSpraying) {
   ASSERT_TRUE(rig.runToState("SpraySteady"));
   rig.run(2.0);
   ASSERT_TRUE(rig.pumpsRun());
-  rig.world->edit().clock_start = rig.clock.now() - fromSeconds(870.0);
+  rig.belief.clock_start = rig.clock.now() - fromSeconds(870.0);
   ASSERT_TRUE(rig.runToState("TimeNearlyOver", 2.0));
   rig.run(0.1);
   EXPECT_FALSE(rig.pumpsRun());

@@ -41,17 +41,47 @@ TEST(FireMission, TellsPlacesEstimatesAndJet) {
   FireRig rig;
   ASSERT_TRUE(rig.runToState("SpraySteady"));
   rig.run(1.0);
-  ASSERT_EQ(rig.mission->places().size(), 2u);
-  EXPECT_EQ(rig.mission->places()[0].name, "place 1");
-  ASSERT_EQ(rig.mission->fires().size(), 1u);
-  EXPECT_EQ(rig.mission->fires()[0].place, "place 1");
-  const JetPreview jet = rig.mission->jetPreview(rig.clock.now());
+  Scene scene;
+  rig.mission->describe(scene, rig.clock.now());
+  ASSERT_EQ(scene.places.size(), 2u);
+  EXPECT_EQ(scene.places[0].name, "place 1");
+  ASSERT_EQ(scene.fires.size(), 1u);
+  EXPECT_EQ(scene.fires[0].place, "place 1");
+  const JetPreview& jet = scene.jet;
   EXPECT_TRUE(jet.spraying);
   ASSERT_GT(jet.points_map.size(), 10u);
   double nearest = 1.0;
   for (const Eigen::Vector3d& p : jet.points_map)
     nearest = std::min(nearest, (p - rig.sweep.p_plate_map).norm());
   EXPECT_LT(nearest, 0.04) << "5 cm between points";
+}
+
+TEST(FireMission, ScoresTheFirstLitreOnAPlace) {
+  FireRig rig;
+  const auto score = [&rig] {
+    RobotStatus status;
+    rig.mission->describe(status, rig.clock.now());
+    return status.score_est;
+  };
+  EXPECT_EQ(score(), 0.0);
+  rig.mission->belief().places[1].litres_est = 0.5;
+  EXPECT_NEAR(score(), 3.0, 1e-9);
+  rig.mission->belief().places[1].litres_est = 4.0;
+  EXPECT_NEAR(score(), 6.0, 1e-9);
+}
+
+TEST(FireMission, RaisesAPlaceThatIsRefused) {
+  FireRig rig;
+  rig.surroundings.misplaced = {0.2, 0.1, 0.0};
+  EXPECT_TRUE(rig.mission->alarms(rig.clock.now()).empty());
+  ASSERT_TRUE(rig.runToState("PlaceRefused")) << rig.state();
+  ASSERT_EQ(rig.mission->alarms(rig.clock.now()).size(), 1u);
+  EXPECT_EQ(rig.mission->alarms(rig.clock.now())[0].id, "place.refused");
+}
+
+TEST(FireMission, RefusesCommandsOfOtherMissions) {
+  FireRig rig;
+  EXPECT_EQ(rig.mission->command(Pause{}, "Ada", rig.clock.now()).error().code, ErrorCode::Refused);
 }
 
 }  // namespace

@@ -8,12 +8,12 @@ namespace {
 TEST(FirePause, StopsTheWaterAndGoesOnWhereItWas) {
   FireRig rig;
   ASSERT_TRUE(rig.runUntil([&rig] { return rig.place(0).litres_est > 1.0; }));
-  rig.mission->machine().pause("paused by Ada", rig.clock.now());
+  rig.host->hold(HoldReason::OperatorPause, "paused by Ada", rig.clock.now());
   rig.run(0.1);
   EXPECT_FALSE(rig.pumpsRun());
   rig.run(30.0);
   EXPECT_LT(rig.place(0).litres_est, 1.1);
-  rig.mission->machine().resume(rig.clock.now());
+  rig.host->resume(rig.clock.now());
   ASSERT_TRUE(rig.runToEnd());
   EXPECT_EQ(rig.state(), "Finished");
   EXPECT_NEAR(rig.place(0).litres_est, 4.0, 0.1);
@@ -23,7 +23,7 @@ TEST(FirePause, APausedMissionWritesNoSetpoints) {
   FireRig rig;
   ASSERT_TRUE(rig.runToState("DriveToLocation"));
   rig.run(0.5);
-  rig.mission->machine().pause("Ada drives by hand", rig.clock.now());
+  rig.host->hold(HoldReason::OperatorPause, "Ada drives by hand", rig.clock.now());
   EXPECT_FALSE(rig.base.moving());
   const Pose2 here = rig.base.pose();
   rig.run(5.0);
@@ -34,11 +34,11 @@ TEST(FirePause, APausedMissionWritesNoSetpoints) {
 TEST(FirePause, ANozzleMovedByHandIsAimedAnew) {
   FireRig rig;
   ASSERT_TRUE(rig.runUntil([&rig] { return rig.place(0).litres_est > 1.0; }));
-  rig.mission->machine().pause("Ada drives by hand", rig.clock.now());
+  rig.host->hold(HoldReason::OperatorPause, "Ada drives by hand", rig.clock.now());
   Vector6d q = rig.arm_device.state()->q;
   q[0] += 0.3;
   rig.arm_device.setQ(q);
-  rig.mission->machine().resume(rig.clock.now());
+  rig.host->resume(rig.clock.now());
   rig.run(0.1);
   EXPECT_FALSE(rig.pumpsRun()) << "no water past the opening";
   EXPECT_EQ(rig.state(), "AimHose");
@@ -49,7 +49,7 @@ TEST(FirePause, ANozzleMovedByHandIsAimedAnew) {
 TEST(FirePause, WaterByHandCountsForThePlace) {
   FireRig rig;
   ASSERT_TRUE(rig.runToState("AimHose"));
-  rig.mission->machine().pause("Ada drives by hand", rig.clock.now());
+  rig.host->hold(HoldReason::OperatorPause, "Ada drives by hand", rig.clock.now());
   for (int i = 0; i < 500; ++i) {
     PumpSetpoint setpoint;
     setpoint.stamp = rig.clock.now();
@@ -66,10 +66,10 @@ TEST(FireReset, StartsAgainAndKeepsWhatItKnows) {
   const double elapsed_s = rig.missionTime();
   rig.base.carryTo(rig.arena.start.pose());
   rig.arm_device.setQ(RobotGeometry::radians(rig.robot.q_park_deg));
-  rig.mission->onReset(rig.clock.now());
+  rig.host->onReset(rig.clock.now());
   rig.run(0.1);
   EXPECT_EQ(rig.state(), "EnterBuilding");
-  EXPECT_EQ(rig.world->state().resets, 1);
+  EXPECT_EQ(rig.belief.resets, 1);
   EXPECT_GE(rig.missionTime(), elapsed_s) << "the clock runs on";
   EXPECT_TRUE(rig.place(0).visited);
   ASSERT_TRUE(rig.runToEnd());
@@ -80,13 +80,13 @@ TEST(FireReset, StartsAgainAndKeepsWhatItKnows) {
 TEST(FireReset, WhilePausedWaitsForTheOperator) {
   FireRig rig;
   ASSERT_TRUE(rig.runToState("ArmSearch"));
-  rig.mission->machine().pause("paused by Ada", rig.clock.now());
+  rig.host->hold(HoldReason::OperatorPause, "paused by Ada", rig.clock.now());
   rig.base.carryTo(rig.arena.start.pose());
-  rig.mission->onReset(rig.clock.now());
+  rig.host->onReset(rig.clock.now());
   rig.run(5.0);
   EXPECT_EQ(rig.state(), "EnterBuilding");
   EXPECT_FALSE(rig.base.moving() || rig.arm.moving());
-  rig.mission->machine().resume(rig.clock.now());
+  rig.host->resume(rig.clock.now());
   EXPECT_TRUE(rig.runToState("ArmSearch"));
 }
 

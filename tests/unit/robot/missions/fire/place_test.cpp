@@ -78,7 +78,7 @@ TEST(NudgePlace, RefusesWhatIsNoNudgeAndWhileTheArmWorksThere) {
   ASSERT_TRUE(rig.runToState("ArmSearch"));
   EXPECT_EQ(rig.mission->nudgePlace("place 1", {0.1, 0, 0}).error().code, ErrorCode::Refused);
   EXPECT_TRUE(rig.mission->nudgePlace("place 2", {0.1, 0, 0}).has_value());
-  rig.mission->machine().pause("look", rig.clock.now());
+  rig.host->hold(HoldReason::OperatorPause, "look", rig.clock.now());
   EXPECT_TRUE(rig.mission->nudgePlace("place 1", {0.1, 0, 0}).has_value());
 }
 

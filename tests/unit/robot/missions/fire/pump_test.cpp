@@ -26,8 +26,8 @@ TEST(PumpFault, GoesOnWithTheOtherPump) {
   ASSERT_TRUE(rig.runToEnd());
   EXPECT_EQ(rig.state(), "Finished");
   EXPECT_EQ(rig.countVisits("PumpFault"), 2);
-  EXPECT_FALSE(rig.world->state().pump_usable[0]);
-  EXPECT_TRUE(rig.world->state().pump_usable[1]);
+  EXPECT_FALSE(rig.mission->belief().pump_usable[0]);
+  EXPECT_TRUE(rig.mission->belief().pump_usable[1]);
   EXPECT_TRUE(rig.place(0).extinguished);
 }
 
@@ -39,7 +39,7 @@ TEST(PumpFault, BothPumpsDeadMeansNextPlaceThenSafeStop) {
   EXPECT_EQ(rig.countVisits("PumpFault"), 2);
   EXPECT_EQ(rig.place(0).outcome, "the pumps do not run");
   ASSERT_TRUE(rig.runToState("DriveToLocation", 5.0)) << "a second place is left";
-  EXPECT_EQ(rig.world->state().current_place, 1);
+  EXPECT_EQ(rig.mission->belief().current_place, 1);
 }
 
 TEST(PumpFault, WithNoPlaceLeftItIsTheSafeStop) {

@@ -30,11 +30,11 @@ TEST_F(FireResume, KilledInAnyStateTheMissionGoesOnToItsEnd) {
     FireRig rig({.checkpoint_path = path_});
     ASSERT_TRUE(rig.runToState(state)) << state;
     rig.run(0.5);
-    const double litres = rig.world->state().sprayed_l_est;
+    const double litres = rig.mission->belief().sprayed_l_est;
     const double elapsed_s = rig.missionTime();
     rig.killAndResume();
     EXPECT_FALSE(rig.pumpsRun()) << state;
-    EXPECT_NEAR(rig.world->state().sprayed_l_est, litres, 0.02)
+    EXPECT_NEAR(rig.mission->belief().sprayed_l_est, litres, 0.02)
         << state << ": at most 0.2 s are forgotten";
     EXPECT_NEAR(rig.missionTime(), elapsed_s + 1.0, 0.1) << state << ": the clock ran on";
     EXPECT_EQ(rig.status().mission_uuid, "test-uuid");
@@ -63,9 +63,9 @@ TEST_F(FireResume, RefusesADamagedCheckpointAndStartsNothing) {
   }
   std::filesystem::resize_file(path_, std::filesystem::file_size(path_) / 2);
   FireRig rig({.checkpoint_path = path_, .start = false});
-  const auto resumed = rig.mission->resumeFrom(path_, rig.clock.now());
-  ASSERT_FALSE(resumed.has_value());
-  EXPECT_EQ(resumed.error().code, ErrorCode::Truncated);
+  const auto saved = loadCheckpoint(path_);
+  ASSERT_FALSE(saved.has_value());
+  EXPECT_EQ(saved.error().code, ErrorCode::Truncated);
   rig.run(1.0);
   EXPECT_FALSE(rig.status().running);
   EXPECT_FALSE(rig.base.moving() || rig.arm.moving());
@@ -75,18 +75,17 @@ TEST_F(FireResume, ADiskThatRefusesRaisesAnAlarmAndStopsNothing) {
   std::filesystem::remove_all(folder_);
   FireRig rig({.checkpoint_path = path_});
   rig.run(2.0);
-  rig.mission->flushCheckpoint();
+  rig.host->flushCheckpoint();
   rig.run(0.02);
-  ASSERT_EQ(rig.mission->alarms().size(), 1u);
-  EXPECT_EQ(rig.mission->alarms()[0].id, "storage.checkpoint");
-  EXPECT_NE(rig.mission->alarms()[0].text.find(path_), std::string::npos)
-      << rig.mission->alarms()[0].text;
+  ASSERT_TRUE(rig.host->storageProblem().has_value());
+  EXPECT_NE(rig.host->storageProblem()->message.find(path_), std::string::npos)
+      << rig.host->storageProblem()->message;
   ASSERT_TRUE(rig.runToState("DriveToLocation"));
   std::filesystem::create_directories(folder_);
   rig.run(1.0);
-  rig.mission->flushCheckpoint();
+  rig.host->flushCheckpoint();
   rig.run(0.02);
-  EXPECT_TRUE(rig.mission->alarms().empty());
+  EXPECT_FALSE(rig.host->storageProblem().has_value());
   EXPECT_TRUE(std::filesystem::exists(path_));
 }
 

@@ -23,7 +23,7 @@ TEST(FireSearch, DoesNotConcludeWhileThePlateMayStillBeWarming) {
   EXPECT_EQ(rig.state(), "ArmSearch");
   EXPECT_EQ(rig.noteOf("ArmSearch"), "the plate may still be warming");
   ASSERT_TRUE(rig.runToState("AimHose", 60.0)) << "it is found at the same place once it is hot";
-  EXPECT_EQ(rig.world->state().current_place, 0);
+  EXPECT_EQ(rig.mission->belief().current_place, 0);
 }
 
 TEST(FireSearch, ConcludesOnlyFromASweepThatBeganWhenThePlateWasHot) {

@@ -5,8 +5,12 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json_fwd.hpp>
+
+#include "common/core/error.h"
 #include "common/geom/pose.h"
 #include "common/model/fire.h"
+#include "robot/scene/arena_map.h"
 
 namespace kiln {
 
@@ -30,32 +34,39 @@ struct FirePlace {
   std::string outcome;  ///< for report and operator
 };
 
-/// Everything that the mission knows and that survives a restart. `map`, metres, radians.
-struct WorldState {
-  bool clock_started = false;
-  Stamp clock_start;  ///< robot time at which the mission clock began
-  int resets = 0;
+/// What the fire mission knows and what survives a restart of it. `map`, metres, radians, litres.
+struct FireBelief {
   std::vector<FirePlace> places;
   int current_place = -1;  ///< index into places; -1 = none selected
   int at_place = -1;       ///< the base last arrived at the work pose of this place; -1 = none
   int search_round = 1;
   bool inside = false;  ///< the entry path was driven to its end
-  Pose2 X_map_base;     ///< newest known pose
-  Stamp pose_stamp;
   double sprayed_l_est = 0.0;
   std::array<double, 2> tank_l_est{5.0, 5.0};
-  std::array<bool, 2> pump_usable{true,
-                                  true};  ///< a pump that repeatedly drew no current is left out
-  int entry_faults = 0;                   ///< failed drives into the building since the last reset
-  int blocked_in_row = 0;                 ///< arm faults since a drive last succeeded
+  /// A pump that repeatedly drew no current is left out.
+  std::array<bool, 2> pump_usable{true, true};
+  int entry_faults = 0;    ///< failed drives into the building since the last reset
+  int blocked_in_row = 0;  ///< arm faults since a drive last succeeded
 
-  /// Seconds on the mission clock; 0 before its start. It runs on through pauses and resets.
-  [[nodiscard]] double elapsedS(Stamp now) const {
-    return clock_started ? toSeconds(now - clock_start) : 0.0;
-  }
   [[nodiscard]] bool anyExtinguished() const;
   /// Index of the first place not visited in this round, or -1.
   [[nodiscard]] int nextPlace() const;
+  /// nullptr when no place is selected.
+  [[nodiscard]] FirePlace* currentPlace();
+  [[nodiscard]] const FirePlace* currentPlace() const;
+  /// The operator's correction of where a place stands: shifted by (x, y) in map and turned by yaw
+  /// about its plate. What was seen of its fire before is forgotten, and it may be visited anew.
+  /// Error: Refused for more than 1 m or 30 deg at once (a mistake, not a nudge), InvalidInput for
+  /// an unknown place or a correction that is not finite.
+  [[nodiscard]] Result<void> nudgePlace(std::size_t index, const Pose2& correction);
 };
+
+/// The arena's places, nothing known of them.
+[[nodiscard]] FireBelief initialFireBelief(const ArenaMap& arena);
+
+[[nodiscard]] nlohmann::json fireBeliefToJson(const FireBelief& belief);
+/// @param places  how many the arena has.
+/// Error{InvalidInput}: names the first key that is missing, of the wrong type or out of range.
+[[nodiscard]] Result<FireBelief> fireBeliefFromJson(const nlohmann::json& json, std::size_t places);
 
 }  // namespace kiln

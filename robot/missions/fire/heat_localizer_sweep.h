@@ -5,7 +5,7 @@
 
 namespace kiln {
 
-/// HeatLocalizer as the mission sees it: perception stays out of missions.
+/// HeatLocalizer as the skills see it.
 class HeatLocalizerSweep final : public HeatSweep {
  public:
   explicit HeatLocalizerSweep(HeatLocalizer::Config config) : localizer_(config) {}

@@ -1,4 +1,4 @@
-#include "robot/world_model/world_json.h"
+#include "robot/missions/fire/fire_belief.h"
 
 #include <cmath>
 
@@ -79,19 +79,13 @@ FirePlace placeFrom(const json& j) {
   return out;
 }
 
-WorldState worldFrom(const json& j) {
-  WorldState out;
-  out.clock_started = j.at("clock_started").get<bool>();
-  out.clock_start = stampFromNanoseconds(j.at("clock_start_ns").get<std::int64_t>());
-  out.resets = j.at("resets").get<int>();
+FireBelief beliefFrom(const json& j) {
+  FireBelief out;
   for (const json& place : j.at("places")) out.places.push_back(placeFrom(place));
   out.current_place = j.at("current_place").get<int>();
   out.at_place = j.at("at_place").get<int>();
   out.search_round = j.at("search_round").get<int>();
   out.inside = j.at("inside").get<bool>();
-  const Eigen::Vector3d base = vectorFrom(j.at("X_map_base"));
-  out.X_map_base = {base.x(), base.y(), base.z()};
-  out.pose_stamp = stampFromNanoseconds(j.at("pose_stamp_ns").get<std::int64_t>());
   out.sprayed_l_est = j.at("sprayed_l_est").get<double>();
   out.tank_l_est = {j.at("tank_l_est").at(0).get<double>(), j.at("tank_l_est").at(1).get<double>()};
   out.pump_usable = {j.at("pump_usable").at(0).get<bool>(), j.at("pump_usable").at(1).get<bool>()};
@@ -100,35 +94,48 @@ WorldState worldFrom(const json& j) {
   return out;
 }
 
+/// What is wrong with it; empty: nothing.
+std::string outOfRange(const FireBelief& belief, std::size_t places) {
+  if (belief.places.size() != places)
+    return fmt::format("it knows {} fire places, the arena has {}", belief.places.size(), places);
+  const int count = static_cast<int>(places);
+  const auto isPlace = [count](int index) { return index >= -1 && index < count; };
+  if (!isPlace(belief.current_place) || !isPlace(belief.at_place))
+    return fmt::format("it stands at place {} of {}", belief.current_place + 1, count);
+  for (const double litres : {belief.sprayed_l_est, belief.tank_l_est[0], belief.tank_l_est[1]})
+    if (litres < 0.0) return fmt::format("{:.1f} l of water are less than none", litres);
+  for (const FirePlace& place : belief.places)
+    if (place.litres_est < 0.0) return place.name + " got less than no water";
+  return {};
+}
+
 }  // namespace
 
-json worldToJson(const WorldState& world) {
+json fireBeliefToJson(const FireBelief& belief) {
   json places = json::array();
-  for (const FirePlace& place : world.places) places.push_back(toJson(place));
-  return {{"clock_started", world.clock_started},
-          {"clock_start_ns", toNanoseconds(world.clock_start)},
-          {"resets", world.resets},
-          {"places", places},
-          {"current_place", world.current_place},
-          {"at_place", world.at_place},
-          {"search_round", world.search_round},
-          {"inside", world.inside},
-          {"X_map_base", {world.X_map_base.x_m, world.X_map_base.y_m, world.X_map_base.yaw_rad}},
-          {"pose_stamp_ns", toNanoseconds(world.pose_stamp)},
-          {"sprayed_l_est", world.sprayed_l_est},
-          {"tank_l_est", {world.tank_l_est[0], world.tank_l_est[1]}},
-          {"pump_usable", {world.pump_usable[0], world.pump_usable[1]}},
-          {"entry_faults", world.entry_faults},
-          {"blocked_in_row", world.blocked_in_row}};
+  for (const FirePlace& place : belief.places) places.push_back(toJson(place));
+  return {{"places", places},
+          {"current_place", belief.current_place},
+          {"at_place", belief.at_place},
+          {"search_round", belief.search_round},
+          {"inside", belief.inside},
+          {"sprayed_l_est", belief.sprayed_l_est},
+          {"tank_l_est", {belief.tank_l_est[0], belief.tank_l_est[1]}},
+          {"pump_usable", {belief.pump_usable[0], belief.pump_usable[1]}},
+          {"entry_faults", belief.entry_faults},
+          {"blocked_in_row", belief.blocked_in_row}};
 }
 
 // JSON writes NaN as null, which is then of the wrong type: a non-finite number cannot come back.
-Result<WorldState> worldFromJson(const json& j) {
+Result<FireBelief> fireBeliefFromJson(const json& j, std::size_t places) {
   try {
-    return worldFrom(j);
+    FireBelief belief = beliefFrom(j);
+    if (const std::string wrong = outOfRange(belief, places); !wrong.empty())
+      return makeError(ErrorCode::InvalidInput, "{}", wrong);
+    return belief;
   } catch (const json::exception& e) {
-    return makeError(ErrorCode::InvalidInput,
-                     "the checkpoint's world is damaged: {}; start without --resume", e.what());
+    return makeError(ErrorCode::InvalidInput, "what is known of the fires is damaged: {}",
+                     e.what());
   }
 }
 

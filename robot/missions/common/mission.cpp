@@ -1,0 +1,18 @@
+#include "robot/missions/common/mission.h"
+
+namespace kiln {
+
+// The defaults of a mission that has nothing to say.
+
+Result<void> Mission::command(const CommandBody& body, const std::string&, Stamp) {
+  return makeError(ErrorCode::Refused, "this mission does not know {}", commandName(body));
+}
+
+std::vector<MissionAlarm> Mission::alarms(Stamp) const { return {}; }
+std::vector<Check> Mission::checks(Stamp) const { return {}; }
+void Mission::describe(RobotStatus&, Stamp) const {}
+void Mission::describe(Scene&, Stamp) const {}
+void Mission::report(nlohmann::json&) const {}
+void Mission::onThermal(ThermalImagePtr) {}
+
+}  // namespace kiln

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "common/core/error.h"
+#include "common/model/command.h"
+#include "common/model/scene.h"
+#include "common/model/sensor.h"
+#include "common/model/status.h"
+#include "robot/fsm/machine.h"
+
+namespace kiln {
+
+/// An alarm that a mission raises while it is listed.
+struct MissionAlarm {
+  std::string id;
+  AlarmLevel level = AlarmLevel::Advisory;
+  std::string text;
+  std::string action;  ///< what the operator should do
+};
+
+/// What one mission brings: its states, what it knows, what it makes of the sensors, what it tells
+/// and what it may be asked. MissionHost runs it; it is made by the catalogue
+/// (robot/missions/catalog.h). Confined to the mission thread, except onThermal().
+class Mission {
+ public:
+  virtual ~Mission() = default;
+
+  [[nodiscard]] virtual Machine& machine() = 0;
+  /// A mission after another begins: forgets what it did. Before the machine starts.
+  virtual void beginAnew(Stamp now) = 0;
+  /// Once a tick, before the machine steps: takes over what devices and perception say.
+  virtual void observe(Stamp now) = 0;
+  /// The robot was carried to its start: everything rests, knowledge stays.
+  virtual void onReset(Stamp now) = 0;
+  /// What it knows, for the checkpoint.
+  [[nodiscard]] virtual nlohmann::json save() const = 0;
+  /// Error: InvalidInput, names what is wrong; nothing was taken over then.
+  [[nodiscard]] virtual Result<void> restore(const nlohmann::json& saved) = 0;
+  /// Length of the mission clock, s; 0: none.
+  [[nodiscard]] virtual double limitS() const = 0;
+
+  /// A command of this mission (NudgePlace, ContinueDespite ...). Error: Refused or InvalidInput.
+  [[nodiscard]] virtual Result<void> command(const CommandBody& body,
+                                             const std::string& operator_name, Stamp now);
+  /// Raised now. @pre observe() was called in this tick.
+  [[nodiscard]] virtual std::vector<MissionAlarm> alarms(Stamp now) const;
+  /// Rows of the preflight that this mission adds.
+  [[nodiscard]] virtual std::vector<Check> checks(Stamp now) const;
+  /// Adds its figures and what it draws.
+  virtual void describe(RobotStatus& status, Stamp now) const;
+  virtual void describe(Scene& scene, Stamp now) const;
+  /// Adds its keys to the mission report.
+  virtual void report(nlohmann::json& report) const;
+
+  /// A thermal image has arrived; any thread.
+  virtual void onThermal(ThermalImagePtr image);
+  /// Frames that its perception could not take.
+  [[nodiscard]] virtual std::uint64_t droppedFrames() const { return 0; }
+};
+
+}  // namespace kiln

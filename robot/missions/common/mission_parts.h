@@ -1,0 +1,42 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "common/core/clock.h"
+#include "common/core/executor.h"
+#include "common/model/fire.h"
+#include "common/model/sensor.h"
+#include "common/robot_model/robot_geometry.h"
+#include "robot/control/pump_controller.h"
+#include "robot/hal/arm.h"
+#include "robot/scene/arena_map.h"
+#include "robot/skills/aim/spray_calibration.h"
+#include "robot/skills/motion.h"
+#include "robot/skills/surroundings.h"
+#include "robot/world_model/robot_belief.h"
+
+namespace kiln {
+
+/// What the robot lends a mission; all of it outlives the mission.
+struct MissionParts {
+  const Clock& clock;
+  Executor& executor;
+  ArenaMap& arena;  ///< what everybody plans with; a mission may move what stands elsewhere
+  const RobotGeometry& robot;
+  const RobotBelief& belief;
+  BaseMotion& base;       ///< DriveTo
+  ArmMotion& arm;         ///< MoveArm
+  const Arm& arm_device;  ///< joints and safety mode
+  PumpController& pumps;
+  const SprayCalibration& spray_calibration;
+  std::function<Pose2()> pose;  ///< newest X_map_base
+  Surroundings& surroundings;   ///< the live cloud
+  /// Where the flange was in map at a stamp of the last seconds; nullopt: not known.
+  std::function<std::optional<Eigen::Isometry3d>(Stamp)> X_map_flange;
+  /// To the stations and the recording.
+  std::function<void(ThermalImagePtr)> publish_thermal;
+  std::function<void(HeatDetections)> publish_heat;
+};
+
+}  // namespace kiln
