@@ -9,6 +9,7 @@
 #include "common/client/hold_stream.h"
 #include "common/client/link_talk.h"
 #include "common/client/topic_dispatch.h"
+#include "common/core/text.h"
 #include "common/transport/station_end.h"
 #include "common/wire/command.h"
 
@@ -16,6 +17,12 @@ namespace kiln {
 namespace {
 
 constexpr double kReportPeriod_s = 0.2;
+
+/// The robot would clean the name too; here it must not make a message too long for the socket.
+OperatorSession::Config cleaned(OperatorSession::Config config) {
+  config.operator_name = printableName(config.operator_name);
+  return config;
+}
 
 std::string randomClientId() {
   std::random_device random;
@@ -26,7 +33,7 @@ std::string randomClientId() {
 
 struct OperatorSession::Impl {
   Impl(Config c, Callbacks cb, const Clock& station_clock)
-      : config(std::move(c)),
+      : config(cleaned(std::move(c))),
         callbacks(std::move(cb)),
         clock(station_clock),
         client_id(randomClientId()),
