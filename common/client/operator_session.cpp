@@ -29,6 +29,11 @@ std::string randomClientId() {
   return fmt::format("{:08x}{:08x}", random(), random());
 }
 
+std::uint64_t randomKey() {
+  std::random_device random;
+  return std::uint64_t{random()} << 32 | random() | 1u;
+}
+
 }  // namespace
 
 struct OperatorSession::Impl {
@@ -38,7 +43,7 @@ struct OperatorSession::Impl {
         clock(station_clock),
         client_id(randomClientId()),
         talk({kProtocolVersion, config.program_version, client_id, config.operator_name,
-              config.role, config.expected_mission_uuid},
+              config.role, config.expected_mission_uuid, randomKey()},
              config.degraded_after_s, config.lost_after_s),
         tracker(config.ack_timeout_s),
         holds(config.setpoint_rate_hz, config.hold_ttl_s) {}

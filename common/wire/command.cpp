@@ -39,6 +39,7 @@ void toProto(const Hello& hello, v1::Hello& out) {
   out.set_operator_name(validUtf8(hello.operator_name));
   out.set_expected_mission_uuid(hello.expected_mission_uuid);
   out.set_role(static_cast<std::uint32_t>(hello.role));
+  out.set_key(hello.key);
 }
 
 Result<Hello> fromProto(const v1::Hello& in) {
@@ -52,6 +53,7 @@ Result<Hello> fromProto(const v1::Hello& in) {
   hello.operator_name = printableName(in.operator_name());
   hello.role = role.value_or(ClientRole::Viewer);
   hello.expected_mission_uuid = printableName(in.expected_mission_uuid());
+  hello.key = in.key();
   return hello;
 }
 

@@ -60,7 +60,8 @@ GateDecision Authority::judge(const ReceivedCommand& received, const LeaseStatus
   GateDecision decision = gate_.decide(received, lease, situation, now);
   if (!decision.accepted) {
     const bool only_this_message = decision.code == "replayed" || decision.code == "out_of_order" ||
-                                   decision.code == "too_old" || decision.code == "in_future";
+                                   decision.code == "bad_number" || decision.code == "too_old" ||
+                                   decision.code == "in_future";
     dead_man_.refused(command, only_this_message);
   } else if (isSetpoint(command.body) && !dead_man_.mayFeed(command)) {
     return gate::refuse("press_over", "this press has ended; let go and press again");
