@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 #include <poll.h>
+#include <pthread.h>
+#include <sys/eventfd.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -43,11 +45,20 @@ bool writeWithin(int fd, std::string_view bytes, Duration limit, const std::stop
 }
 
 LineWriter::LineWriter(int fd)
-    : fd_(fd), thread_([this](const std::stop_token& stop) { run(stop); }) {}
+    : fd_(fd),
+      wake_fd_(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)),
+      thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
 LineWriter::~LineWriter() {
   thread_.request_stop();
-  changed_.notify_all();
+  wake();
+  thread_.join();
+  ::close(wake_fd_);
+}
+
+void LineWriter::wake() const {
+  const std::uint64_t one = 1;
+  [[maybe_unused]] const auto written = ::write(wake_fd_, &one, sizeof one);
 }
 
 void LineWriter::push(std::string line) {
@@ -59,12 +70,19 @@ void LineWriter::push(std::string line) {
     }
     waiting_.push_back(std::move(line));
   }
-  changed_.notify_all();
+  wake();
 }
 
 bool LineWriter::flush(Duration limit) {
-  std::unique_lock lock(mutex_);
-  return changed_.wait_for(lock, limit, [&] { return waiting_.empty() && !writing_; });
+  constexpr Duration kLook = std::chrono::milliseconds(2);
+  for (Duration waited{}; waited <= limit; waited += kLook) {
+    {
+      const std::lock_guard lock(mutex_);
+      if (waiting_.empty() && !writing_) return true;
+    }
+    std::this_thread::sleep_for(kLook);
+  }
+  return false;
 }
 
 std::uint64_t LineWriter::lost() const {
@@ -72,13 +90,10 @@ std::uint64_t LineWriter::lost() const {
   return lost_;
 }
 
-std::string LineWriter::next(const std::stop_token& stop) {
-  std::unique_lock lock(mutex_);
-  writing_ = false;
-  if (waiting_.empty()) changed_.notify_all();
-  changed_.wait(lock, [&] { return stop.stop_requested() || !waiting_.empty(); });
+std::string LineWriter::next() {
+  const std::lock_guard lock(mutex_);
+  writing_ = !waiting_.empty();
   if (waiting_.empty()) return {};
-  writing_ = true;
   std::string line = std::move(waiting_.front());
   waiting_.pop_front();
   if (const auto more = lost_ - std::exchange(lost_said_, lost_); more > 0)
@@ -87,7 +102,17 @@ std::string LineWriter::next(const std::stop_token& stop) {
 }
 
 void LineWriter::run(const std::stop_token& stop) {
-  while (!stop.stop_requested()) (void)writeWithin(fd_, next(stop), kForEver, stop);
+  ::pthread_setname_np(::pthread_self(), "log");
+  while (!stop.stop_requested()) {
+    if (const std::string line = next(); !line.empty()) {
+      (void)writeWithin(fd_, line, kForEver, stop);
+      continue;
+    }
+    pollfd pushed{wake_fd_, POLLIN, 0};
+    ::poll(&pushed, 1, -1);
+    std::uint64_t count = 0;
+    [[maybe_unused]] const auto read = ::read(wake_fd_, &count, sizeof count);
+  }
 }
 
 }  // namespace kiln

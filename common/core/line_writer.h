@@ -1,6 +1,5 @@
 #pragma once
 
-#include <condition_variable>
 #include <cstdint>
 #include <deque>
 #include <string>
@@ -31,11 +30,13 @@ class LineWriter {
 
  private:
   void run(const std::stop_token& stop);
-  [[nodiscard]] std::string next(const std::stop_token& stop);
+  [[nodiscard]] std::string next();
+  void wake() const;
 
   const int fd_;
+  // Not a condition variable: its inner mutex does not lend its priority, and control loops log.
+  const int wake_fd_;
   mutable Mutex mutex_;
-  std::condition_variable_any changed_;
   std::deque<std::string> waiting_;
   bool writing_ = false;
   std::uint64_t lost_ = 0, lost_said_ = 0;

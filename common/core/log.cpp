@@ -1,6 +1,7 @@
 #include "common/core/log.h"
 
 #include <cstdlib>
+#include <map>
 #include <mutex>
 
 #include <spdlog/pattern_formatter.h>
@@ -91,18 +92,30 @@ std::shared_ptr<CleaningSink> sharedSink() {
   return sink;
 }
 
+/// Ours and not spdlog's registry: control loops log, and its mutex does not lend its priority.
+struct Loggers {
+  Mutex mutex;
+  std::map<std::string, std::shared_ptr<spdlog::logger>> by_name;
+  spdlog::level::level_enum level = spdlog::level::info;
+};
+Loggers& loggers() {
+  static Loggers& all = *new Loggers;  // for whatever logs at the very end
+  return all;
+}
+
 }  // namespace
 
 bool flushLog(Duration limit) { return errorOutput().flush(limit); }
 
 std::shared_ptr<spdlog::logger> logger(const std::string& name) {
-  static std::mutex mutex;
-  const std::lock_guard lock(mutex);
-  if (auto existing = spdlog::get(name)) return existing;
-  auto created = std::make_shared<spdlog::logger>(name, sharedSink());
-  created->set_level(spdlog::get_level());
-  spdlog::register_logger(created);
-  return created;
+  Loggers& all = loggers();
+  const std::lock_guard lock(all.mutex);
+  auto& found = all.by_name[name];
+  if (!found) {
+    found = std::make_shared<spdlog::logger>(name, sharedSink());
+    found->set_level(all.level);
+  }
+  return found;
 }
 
 LogSinkHandle addLogSink(std::function<void(const LogRecord&)> sink) {
@@ -111,6 +124,11 @@ LogSinkHandle addLogSink(std::function<void(const LogRecord&)> sink) {
   return {added.get(), [added](void*) { sharedSink()->remove_sink(added); }};
 }
 
-void setLogLevel(int level) { spdlog::set_level(static_cast<spdlog::level::level_enum>(level)); }
+void setLogLevel(int level) {
+  Loggers& all = loggers();
+  const std::lock_guard lock(all.mutex);
+  all.level = static_cast<spdlog::level::level_enum>(level);
+  for (auto& [name, logger] : all.by_name) logger->set_level(all.level);
+}
 
 }  // namespace kiln

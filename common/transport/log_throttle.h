@@ -14,7 +14,9 @@ namespace kiln {
 /// says how many were kept back. Confined to one thread.
 class LogThrottle {
  public:
-  explicit LogThrottle(std::string logger_name) : logger_name_(std::move(logger_name)) {}
+  /// @param at_once  lines that may come in a burst.
+  explicit LogThrottle(std::string logger_name, double at_once = 2.0)
+      : logger_name_(std::move(logger_name)), most_(at_once), left_(at_once) {}
 
   template <class... Args>
   void warn(fmt::format_string<Args...> format, Args&&... args) {
@@ -26,12 +28,10 @@ class LogThrottle {
   }
 
  private:
-  static constexpr double kMost = 2.0;  ///< lines at once
-
   template <class... Args>
   void write(spdlog::level::level_enum level, fmt::format_string<Args...> format, Args&&... args) {
     const auto now = monotonicNow();
-    left_ = std::min(kMost, left_ + secondsBetween(std::exchange(last_, now), now));
+    left_ = std::min(most_, left_ + secondsBetween(std::exchange(last_, now), now));
     if (left_ < 1.0) {
       ++kept_back_;
       return;
@@ -44,8 +44,8 @@ class LogThrottle {
   }
 
   std::string logger_name_;
+  double most_, left_;
   Monotonic::time_point last_ = monotonicNow();
-  double left_ = kMost;
   std::uint64_t kept_back_ = 0;
 };
 

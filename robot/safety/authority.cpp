@@ -42,8 +42,10 @@ Authority::Step Authority::step(const std::vector<ReceivedCommand>& received,
     const std::string why = fmt::format("STOP by {}", found.stop_source);
     lease_.revoke(why);
     invalidate();
-    step.events.push_back(why);
+    if (!stop_said_) step.events.push_back(why);  // not each of a stream of STOPs
+    stop_said_ = true;
   }
+  stop_said_ = stop_said_ && found.stop_latched;
   for (const OperatorPeer& peer : peers) lease_.heard(peer.client_id, peer.last_heard);
   applyEvents(handler, now, step);
   for (const ReceivedCommand& command : received) handle(command, handler, now, step);
