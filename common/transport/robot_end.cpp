@@ -123,7 +123,7 @@ void RobotEnd::send(PeerId peer, std::string message) {
   impl_->wake.notify();
 }
 
-void RobotEnd::keep(PeerId peer) { impl_->commands->keep(peer); }
+void RobotEnd::keep(PeerId peer, bool known) { impl_->commands->keep(peer, known); }
 std::string RobotEnd::nameOf(PeerId peer) const { return impl_->commands->nameOf(peer); }
 
 void RobotEnd::publish(Topic topic, Outbox::Encode encode) {

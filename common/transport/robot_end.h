@@ -33,8 +33,8 @@ class RobotEnd {
   void start(Handlers handlers);
   /// Queued (1024, the newest is dropped) and sent by the link thread.
   void send(PeerId peer, std::string message);
-  /// On the link thread: this peer is known, no newcomer displaces it.
-  void keep(PeerId peer);
+  /// On the link thread: this peer is known, no newcomer displaces it; or it is no more.
+  void keep(PeerId peer, bool known);
   /// On the link thread: how the log names it.
   [[nodiscard]] std::string nameOf(PeerId peer) const;
   void publish(Topic topic, Outbox::Encode encode);

@@ -271,9 +271,10 @@ bool ZmtpServer::send(PeerId to, const ZmtpMessage& message) {
   return !c.gone;
 }
 
-void ZmtpServer::keep(PeerId peer) {
+void ZmtpServer::keep(PeerId peer, bool known) {
   const auto at = impl_->connections.find(peer);
-  if (at == impl_->connections.end() || std::exchange(at->second.kept, true)) return;
+  if (at == impl_->connections.end()) return;
+  if (std::exchange(at->second.kept, known) || !known) return;
   const auto widen = [](Budget& budget, double rate_per_s) {
     budget.rate_per_s = rate_per_s;
     budget.most = std::max(budget.most, rate_per_s);

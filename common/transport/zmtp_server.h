@@ -54,8 +54,9 @@ class ZmtpServer {
 
   /// @return false when the peer is gone or reads too slowly. Nothing was sent then.
   [[nodiscard]] bool send(PeerId to, const ZmtpMessage& message);
-  /// This peer is known to the caller: it is not closed to make room for a newcomer.
-  void keep(PeerId peer);
+  /// This peer is known to the caller: it is not closed to make room for a newcomer. Or it is no
+  /// longer.
+  void keep(PeerId peer, bool known = true);
   /// How the log names it: process of an ipc peer, address of a tcp one.
   [[nodiscard]] std::string nameOf(PeerId peer) const;
 

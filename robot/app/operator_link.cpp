@@ -138,7 +138,7 @@ void OperatorLink::Impl::onHello(PeerId from, const Hello& hello) {
   if (!objection.empty()) {
     refused.warn("refused {} of {}: {}", hello.operator_name, end->nameOf(from), objection);
   } else if (is_new) {
-    end->keep(from);
+    end->keep(from, true);
     came.info("{} connected (Kiln {})", hello.operator_name, hello.version);
   }
   reply(from, replyTo(std::move(objection)));
@@ -196,6 +196,7 @@ void OperatorLink::Impl::onTick() {
   }
   for (const std::string& name : turn.gone)
     went.info("{} is gone: not heard for {:.0f} s", name, config.forget_after_s);
+  for (const PeerId peer : turn.released) end->keep(peer, false);
   for (auto& [to, heartbeat] : turn.due) {
     heartbeat.robot_send_ns = toNanoseconds(clock.now());
     reply(to, heartbeat);

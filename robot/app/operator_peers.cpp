@@ -11,6 +11,7 @@ namespace {
 constexpr double kHeartbeatPeriod_s = 0.2;
 constexpr std::size_t kMaxPeers = 32;
 constexpr std::size_t kMaxLeft = 4096;
+constexpr double kSilent_s = 2.0;          // ten heartbeats
 constexpr double kKeptWithoutKey_s = 3.0;  // longer than a lease lives unheard (2 s)
 constexpr std::size_t kClockSamples = 8;
 
@@ -65,18 +66,30 @@ std::string OperatorPeers::objection(PeerId from, const Hello& hello,
     return "this connection has said hello as somebody else; a second hello changes neither id nor "
            "role: connect anew";
   }
-  if (std::string why = objectionToId(hello); !why.empty()) return why;
-  if (peers_.size() >= kMaxPeers)
-    return fmt::format("{} clients are connected already; close one", kMaxPeers);
-  return {};
+  return objectionToId(hello);
+}
+
+bool OperatorPeers::makeRoom(Monotonic::time_point now) {
+  if (peers_.size() < kMaxPeers) return true;
+  const auto silent = std::min_element(
+      peers_.begin(), peers_.end(),
+      [](const auto& a, const auto& b) { return a.second.heard < b.second.heard; });
+  if (secondsBetween(silent->second.heard, now) < kSilent_s) return false;
+  released_.push_back(silent->first);
+  closed(silent->first, now);
+  return true;
 }
 
 std::string OperatorPeers::hello(PeerId from, const Hello& hello, const std::string& mission_uuid,
                                  Stamp now, Monotonic::time_point heard) {
   if (std::string why = objection(from, hello, mission_uuid); !why.empty()) return why;
   if (!contains(from)) {
-    std::erase_if(peers_,  // its own former connection
-                  [&](const auto& row) { return row.second.seen.client_id == hello.client_id; });
+    if (const auto former = connectionOf(hello.client_id)) {  // its own
+      released_.push_back(*former);
+      peers_.erase(*former);
+    }
+    if (!makeRoom(heard))
+      return fmt::format("{} clients are connected already; close one", kMaxPeers);
     left_.erase(hello.client_id);
     Peer& peer = peers_[from];
     peer.seen.client_id = hello.client_id;
@@ -127,6 +140,7 @@ void OperatorPeers::closed(PeerId peer, Monotonic::time_point at) {
 
 OperatorPeers::Turn OperatorPeers::tick(Monotonic::time_point now) {
   Turn turn;
+  turn.released = std::exchange(released_, {});
   std::erase_if(left_, [&](const auto& row) {
     return secondsBetween(row.second.at, now) > keptFor_s(row.second);
   });
@@ -135,6 +149,7 @@ OperatorPeers::Turn OperatorPeers::tick(Monotonic::time_point now) {
     const double rx_age_s = secondsBetween(peer.heard, now);
     if (rx_age_s > forget_after_s_) {
       turn.gone.push_back(peer.seen.name);
+      turn.released.push_back(at->first);
       at = peers_.erase(at);
       continue;
     }

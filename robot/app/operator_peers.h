@@ -38,6 +38,7 @@ class OperatorPeers {
   struct Turn {
     std::vector<std::pair<PeerId, Heartbeat>> due;  ///< unasked heartbeats
     std::vector<std::string> gone;                  ///< names of those now forgotten
+    std::vector<PeerId> released;                   ///< connections that are nobody's any more
   };
   [[nodiscard]] Turn tick(Monotonic::time_point now);
 
@@ -62,11 +63,14 @@ class OperatorPeers {
                                       const std::string& mission_uuid) const;
   [[nodiscard]] std::string objectionToId(const Hello& hello) const;
   [[nodiscard]] double keptFor_s(const Left& left) const;
+  /// In a full list the one that has been silent longest goes, if any is silent.
+  [[nodiscard]] bool makeRoom(Monotonic::time_point now);
 
   std::string robot_name_, version_;
   double forget_after_s_;
   std::map<PeerId, Peer> peers_;
   std::map<std::string, Left> left_;  ///< by client id; bounded
+  std::vector<PeerId> released_;
 };
 
 }  // namespace kiln

@@ -89,7 +89,8 @@ struct WorldServer::Impl {
   std::unique_ptr<ZmtpServer> socket;
   PeerId holder = 0;             ///< connection of the robot, 0: none
   std::uint32_t holder_pid = 0;  ///< as it says
-  LogThrottle unreadable{"sim.server"}, refused{"sim.server"};
+  LogThrottle unreadable{"sim.server"}, refused{"sim.server"}, came{"sim.server"},
+      went{"sim.server"};
   std::unique_ptr<PictureThread> pictures;
   std::ofstream trace_file;
   Stamp next_trace;
@@ -123,7 +124,7 @@ Result<void> WorldServer::Impl::bind() {
 
 void WorldServer::Impl::release(const char* why) {
   if (holder == 0) return;
-  logger("sim.server")->info("robot left: {}", why);
+  went.info("robot left: {}", why);
   holder = 0;
   WorldCommands nothing;
   nothing.sensors = SensorRequest{};  // sensors cost time and nobody looks
@@ -174,7 +175,7 @@ void WorldServer::Impl::hello(PeerId from, const v1::device::Hello& m) {
     socket->keep(from);
     reply.set_accepted(true);
     next_report = clock.now();
-    logger("sim.server")->info("robot connected at {:.3f} s", toSeconds(world.now()));
+    came.info("robot connected at {:.3f} s", toSeconds(world.now()));
   }
   send(from, answer);
 }
@@ -196,7 +197,7 @@ void WorldServer::Impl::handle(PeerId from, const v1::device::ToWorld& m) {
   }
   if (!m.has_advance()) return;
   const auto commands = fromProto(m.advance());
-  if (!commands) logger("sim.server")->warn("message ignored: {}", commands.error().message);
+  if (!commands) unreadable.warn("message ignored: {}", commands.error().message);
   if (config.lockstep) {
     runLockstep(m.advance(), commands.value_or(WorldCommands{}));
   } else if (commands) {

@@ -88,6 +88,19 @@ TEST(OperatorPeers, AnIdWithoutAKeyIsKeptUntilItsLeaseIsOver) {
   EXPECT_THAT(door.hello(2, helloOf("anna")), IsEmpty());
 }
 
+TEST(OperatorPeers, InAFullListWhoIsSilentMakesRoomAndNobodyElse) {
+  Door door;
+  for (PeerId i = 1; i <= 32; ++i)
+    EXPECT_THAT(door.hello(i, helloOf("client " + std::to_string(i))), IsEmpty());
+  EXPECT_THAT(door.hello(33, helloOf("late")), HasSubstr("32 clients"));
+  door.now_s += 2.1;
+  for (PeerId i = 2; i <= 32; ++i) EXPECT_NE(door.find(i), nullptr);
+  EXPECT_THAT(door.hello(33, helloOf("late")), IsEmpty());
+  EXPECT_EQ(door.find(1), nullptr);
+  EXPECT_THAT(door.peers.tick(door.at()).released, ::testing::ElementsAre(1u));
+  EXPECT_THAT(door.hello(34, helloOf("later")), HasSubstr("32 clients"));
+}
+
 TEST(OperatorPeers, SilentClientsAreForgottenAndToldUnasked) {
   Door door;
   EXPECT_THAT(door.hello(1, helloOf("anna")), IsEmpty());
