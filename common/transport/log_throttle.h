@@ -23,6 +23,10 @@ class LogThrottle {
     write(spdlog::level::warn, format, std::forward<Args>(args)...);
   }
   template <class... Args>
+  void error(fmt::format_string<Args...> format, Args&&... args) {
+    write(spdlog::level::err, format, std::forward<Args>(args)...);
+  }
+  template <class... Args>
   void info(fmt::format_string<Args...> format, Args&&... args) {
     write(spdlog::level::info, format, std::forward<Args>(args)...);
   }

@@ -166,7 +166,8 @@ TEST_F(HostileNeighbours, FloodsAndHoardsCostTheRobotNeitherTimeNorMemory) {
     stopsAreAnswered("rubbish");
     statusComes("rubbish");
   }
-  EXPECT_LT(textOf(live_->scratch().file("robotd.log")).size() - log_before, 5'000u);
+  EXPECT_LT(textOf(live_->scratch().file("robotd.log")).size() - log_before, 5'000u)
+      << textOf(live_->scratch().file("robotd.log")).substr(log_before, 1500);  // what fills it
   {
     const test::Attack one = test::endlessParts(link_.command, "DEALER"),
                        two = test::endlessParts(link_.stop, "DEALER"),
