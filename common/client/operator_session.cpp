@@ -9,6 +9,7 @@
 #include "common/client/hold_stream.h"
 #include "common/client/link_talk.h"
 #include "common/client/topic_dispatch.h"
+#include "common/core/text.h"
 #include "common/transport/station_end.h"
 #include "common/wire/command.h"
 
@@ -17,21 +18,32 @@ namespace {
 
 constexpr double kReportPeriod_s = 0.2;
 
+/// The robot would clean the name too; here it must not make a message too long for the socket.
+OperatorSession::Config cleaned(OperatorSession::Config config) {
+  config.operator_name = printableName(config.operator_name);
+  return config;
+}
+
 std::string randomClientId() {
   std::random_device random;
   return fmt::format("{:08x}{:08x}", random(), random());
+}
+
+std::uint64_t randomKey() {
+  std::random_device random;
+  return std::uint64_t{random()} << 32 | random() | 1u;
 }
 
 }  // namespace
 
 struct OperatorSession::Impl {
   Impl(Config c, Callbacks cb, const Clock& station_clock)
-      : config(std::move(c)),
+      : config(cleaned(std::move(c))),
         callbacks(std::move(cb)),
         clock(station_clock),
         client_id(randomClientId()),
         talk({kProtocolVersion, config.program_version, client_id, config.operator_name,
-              config.role, config.expected_mission_uuid},
+              config.role, config.expected_mission_uuid, randomKey()},
              config.degraded_after_s, config.lost_after_s),
         tracker(config.ack_timeout_s),
         holds(config.setpoint_rate_hz, config.hold_ttl_s) {}

@@ -1,7 +1,10 @@
 #include "common/core/check.h"
 
-#include <cstdio>
 #include <cstdlib>
+
+#include <unistd.h>
+
+#include "common/core/line_writer.h"
 
 namespace kiln {
 namespace {
@@ -18,8 +21,10 @@ void setCheckFailureHandler(std::function<void(const std::string&)> handler) {
 void checkFailed(const char* file, int line, const char* condition, const std::string& values) {
   const std::string message =
       fmt::format("{}:{}: check failed: {} [{}]", file, line, condition, values);
-  std::fprintf(stderr, "%s\n", message.c_str());
+  // First what makes the robot safe: standard error may be a pipe that nobody reads.
   if (failureHandler()) failureHandler()(message);
+  constexpr Duration kLastWords = std::chrono::milliseconds(200);
+  (void)writeWithin(STDERR_FILENO, message + "\n", kLastWords);
   std::abort();
 }
 

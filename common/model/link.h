@@ -17,6 +17,9 @@ struct Hello {
   std::string operator_name;
   ClientRole role = ClientRole::Operator;
   std::string expected_mission_uuid;  ///< empty: whatever the robot runs
+  /// Random per process and never published: shows that a client that comes back on a new
+  /// connection is the same. 0: it cannot show that.
+  std::uint64_t key = 0;
 };
 
 /// 5 Hz each way; carries how well the sender hears the other side, and the clock exchange.

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "common/geom/frames.h"
-#include "common/record/jpeg_size.h"
+#include "common/wire/jpeg_size.h"
 #include "common/wire/proto_message.h"
 #include "foxglove/CompressedImage.pb.h"
 #include "foxglove/FrameTransforms.pb.h"
@@ -194,8 +194,8 @@ std::string encode(const LogLine& line) {
   setTime(line.stamp, *out.mutable_timestamp());
   const bool known = line.level >= 0 && line.level < static_cast<int>(kLevels.size());
   out.set_level(known ? kLevels[static_cast<std::size_t>(line.level)] : Out::UNKNOWN);
-  out.set_message(wire::validUtf8(line.text));
-  out.set_name(wire::validUtf8(line.logger));
+  out.set_message(validUtf8(line.text));
+  out.set_name(validUtf8(line.logger));
   return out.SerializeAsString();
 }
 

@@ -64,6 +64,13 @@ std::optional<Outbox::Message> Outbox::again(Topic topic, Stamp now) {
   return Message{topic, {++row.seq, toNanoseconds(now), row.dropped}, row.latched};
 }
 
+std::optional<Outbox::Message> Outbox::newest(Topic topic, Stamp now) const {
+  const std::lock_guard lock(mutex_);
+  const Row& row = rows_[static_cast<std::size_t>(topic)];
+  if (row.latched.empty()) return std::nullopt;
+  return Message{topic, {row.seq, toNanoseconds(now), row.dropped}, row.latched};
+}
+
 void Outbox::setSubscribed(Topic topic, bool subscribed) {
   const std::lock_guard lock(mutex_);
   Row& row = rows_[static_cast<std::size_t>(topic)];

@@ -34,8 +34,12 @@ class Outbox {
   /// Seconds until take() may have something that a rate cap holds back now; nullopt: nothing
   /// waits.
   [[nodiscard]] std::optional<double> waits(Monotonic::time_point now) const;
-  /// The newest of a latched topic, again; nullopt when there was none yet.
+  /// The newest of a latched topic, again, as one more message of it; nullopt when there was none
+  /// yet.
   [[nodiscard]] std::optional<Message> again(Topic topic, Stamp now);
+  /// The newest of a latched topic for one late subscriber: of no new number, so that the others
+  /// miss none.
+  [[nodiscard]] std::optional<Message> newest(Topic topic, Stamp now) const;
 
   void setSubscribed(Topic topic, bool subscribed);
   [[nodiscard]] bool subscribed(Topic topic) const;

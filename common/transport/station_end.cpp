@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "common/core/bounded_queue.h"
+#include "common/core/text.h"
 #include "common/transport/monotonic.h"
 #include "common/transport/wake_event.h"
 #include "common/transport/zmq_socket.h"
@@ -134,7 +135,7 @@ void StationEnd::Impl::receivePublished(ZmqSocket& socket) {
     const auto topic = topicByName(parts->front());
     if (!topic || parts->size() != 3) {
       handlers.on_bad(fmt::format("published message of {} parts under '{}' is not known; dropped",
-                                  parts->size(), parts->front().substr(0, 32)));
+                                  parts->size(), printableName(parts->front())));
       continue;
     }
     const auto header = decodeFrameHeader((*parts)[1]);

@@ -1,50 +1,66 @@
 #include "common/transport/stop_lane.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <mutex>
 #include <optional>
 #include <thread>
 #include <utility>
+
+#include <poll.h>
 
 #include "common/core/mutex.h"
 #include "common/core/scheduling.h"
 #include "common/transport/monotonic.h"
 #include "common/transport/wake_event.h"
 #include "common/transport/zmq_socket.h"
+#include "common/transport/zmtp_server.h"
 
 namespace kiln {
 namespace {
 constexpr int kIdle_ms = 200;
 constexpr double kRepeat_s = 0.05;
+constexpr std::size_t kMaxRequest = 128 << 10;
+constexpr std::string_view kUnreadable = "\xFF";  // no message of any kind
 }  // namespace
 
 struct StopServer::Impl {
-  explicit Impl(Handler handler)
-      : on_request(std::move(handler)), socket(context, SocketKind::Router, {}) {}
-  void run(std::stop_token stop) {
+  explicit Impl(Handler handler) : on_request(std::move(handler)) {}
+  void answer(PeerId peer, std::string_view request) const {
+    const std::string answer = on_request(request);
+    // An unsent answer is no loss: the request comes again within 50 ms.
+    if (!answer.empty()) static_cast<void>(server->send(peer, frameMessage({answer})));
+  }
+  void run(const std::stop_token& stop) {
     runBeforeOthers();
     while (!stop.stop_requested()) {
-      waitReadable({&socket}, wake.fd(), kIdle_ms);
+      const double wait_s = std::min(1e-3 * kIdle_ms, server->wait_s());
+      std::array<pollfd, 2> items{{{server->fd(), POLLIN, 0}, {wake.fd(), POLLIN, 0}}};
+      ::poll(items.data(), items.size(), static_cast<int>(std::ceil(wait_s * 1e3)));
       wake.clear();
-      while (const auto parts = socket.receive()) {
-        if (parts->size() != 2) continue;
-        const std::string answer = on_request((*parts)[1]);
-        // An unsent answer is no loss: the request comes again within 50 ms.
-        if (!answer.empty()) static_cast<void>(socket.send({(*parts)[0], answer}));
-      }
+      server->serve();
     }
   }
   Handler on_request;
-  ZmqContext context;
-  ZmqSocket socket;
+  std::unique_ptr<ZmtpServer> server;
   WakeEvent wake;
   std::jthread thread;
 };
 
 Result<std::unique_ptr<StopServer>> StopServer::bind(const std::string& address,
                                                      Handler on_request) {
+  ZmtpServer::Limits limits;
+  limits.max_message_bytes = kMaxRequest;
+  auto server = ZmtpServer::bind(address, ZmtpKind::Router, limits);
+  if (!server) return tl::make_unexpected(server.error());
   auto impl = std::make_unique<Impl>(std::move(on_request));
-  if (auto ok = impl->socket.bind(address); !ok) return tl::make_unexpected(ok.error());
-  impl->thread = std::jthread([raw = impl.get()](std::stop_token stop) { raw->run(stop); });
+  impl->server = std::move(*server);
+  impl->server->setHandlers(
+      {[raw = impl.get()](PeerId peer, std::string_view request) { raw->answer(peer, request); },
+       {},
+       [raw = impl.get()](PeerId peer) { raw->answer(peer, kUnreadable); }});
+  impl->thread = std::jthread([raw = impl.get()](const std::stop_token& stop) { raw->run(stop); });
   return std::unique_ptr<StopServer>(new StopServer(std::move(impl)));
 }
 

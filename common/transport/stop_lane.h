@@ -9,9 +9,9 @@
 
 namespace kiln {
 
-/// The robot's end of the STOP lane: a ZeroMQ context, socket and thread of its own, so that
-/// nothing else that goes wrong on the link can delay it. `on_request` runs on that thread and
-/// returns the answer; empty = none.
+/// The robot's end of the STOP lane: a socket and thread of its own, so that nothing else that goes
+/// wrong on the link can delay it. `on_request` runs on that thread and returns the answer; empty =
+/// none. A message that breaks the protocol is a request too, one that nobody can read.
 class StopServer {
  public:
   using Handler = std::function<std::string(std::string_view request)>;

@@ -12,12 +12,8 @@ namespace {
 
 int typeOf(SocketKind kind) {
   switch (kind) {
-    case SocketKind::Router:
-      return ZMQ_ROUTER;
     case SocketKind::Dealer:
       return ZMQ_DEALER;
-    case SocketKind::XPub:
-      return ZMQ_XPUB;
     case SocketKind::Sub:
       return ZMQ_SUB;
   }
@@ -54,10 +50,6 @@ ZmqSocket::ZmqSocket(ZmqContext& context, SocketKind kind, const SocketOptions& 
   set(handle_, ZMQ_MAXMSGSIZE, options.max_message_bytes);
   set(handle_, ZMQ_RECONNECT_IVL, kReconnect_ms);
   set(handle_, ZMQ_RECONNECT_IVL_MAX, kReconnectMax_ms);
-  if (kind == SocketKind::Router) {
-    set(handle_, ZMQ_ROUTER_MANDATORY, 1);
-    set(handle_, ZMQ_ROUTER_HANDOVER, 1);  // a client that reconnects takes its place back
-  }
   if (kind == SocketKind::Dealer) {
     set(handle_, ZMQ_IMMEDIATE, 1);
     if (!options.routing_id.empty()) {
@@ -66,23 +58,9 @@ ZmqSocket::ZmqSocket(ZmqContext& context, SocketKind kind, const SocketOptions& 
       KILN_CHECK(rc == 0, zmq_strerror(zmq_errno()));
     }
   }
-  if (kind == SocketKind::XPub)
-    set(handle_, ZMQ_XPUB_VERBOSE, 1);  // each new subscriber is told to us
 }
 
 ZmqSocket::~ZmqSocket() { zmq_close(handle_); }
-
-Result<void> ZmqSocket::bind(const std::string& address) {
-  if (zmq_bind(handle_, address.c_str()) == 0) return {};
-  if (zmq_errno() == EADDRINUSE) {
-    return makeError(
-        ErrorCode::Unavailable,
-        "{} is in use, perhaps by another robot daemon; stop that one or choose another endpoint",
-        address);
-  }
-  return makeError(ErrorCode::Unavailable, "{} cannot be bound: {}; choose another endpoint",
-                   address, zmq_strerror(zmq_errno()));
-}
 
 Result<void> ZmqSocket::connect(const std::string& address) {
   if (zmq_connect(handle_, address.c_str()) == 0) return {};

@@ -26,7 +26,7 @@ class ZmqContext {
   void* handle_;
 };
 
-enum class SocketKind { Router, Dealer, XPub, Sub };
+enum class SocketKind { Dealer, Sub };
 
 struct SocketOptions {
   int send_hwm = 64;  ///< messages a peer
@@ -35,8 +35,8 @@ struct SocketOptions {
   std::string routing_id;                     ///< Dealer only
 };
 
-/// A non-blocking socket; LINGER is 0 (50 ms for a Dealer), a Dealer queues for living connections
-/// only, a Router reports peers that are gone. Confined to one thread once in use.
+/// A non-blocking connecting socket (the listening ones are ZmtpServer's); LINGER is 0 (50 ms for a
+/// Dealer), a Dealer queues for living connections only. Confined to one thread once in use.
 class ZmqSocket {
  public:
   ZmqSocket(ZmqContext& context, SocketKind kind, const SocketOptions& options);
@@ -44,8 +44,7 @@ class ZmqSocket {
   ZmqSocket(const ZmqSocket&) = delete;
   ZmqSocket& operator=(const ZmqSocket&) = delete;
 
-  /// Error Unavailable: in use, or not possible, in one sentence.
-  [[nodiscard]] Result<void> bind(const std::string& address);
+  /// Error Unavailable: not possible, in one sentence.
   [[nodiscard]] Result<void> connect(const std::string& address);
   void subscribe(std::string_view prefix);
   /// @return false when it cannot be queued now: peer gone or too slow. Nothing was sent then.

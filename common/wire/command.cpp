@@ -7,13 +7,29 @@ namespace kiln::wire {
 namespace {
 
 constexpr std::size_t kMaxCommandBytes = 64u << 10;
-constexpr std::size_t kMaxName = 128;
+/// A STOP counts whatever its sender calls himself.
+constexpr std::size_t kMaxStopBytes = 256u << 10;
 
-/// Identifiers and names come from outside and are shown, logged and used as keys.
-Result<void> checkName(const std::string& text, const char* what) {
-  if (text.size() <= kMaxName) return {};
-  return makeError(ErrorCode::InvalidInput, "{} of {} characters is longer than {}; dropped", what,
-                   text.size(), kMaxName);
+/// Whole nanoseconds of any clock that ever ran: differences of two cannot overflow.
+constexpr std::int64_t kMaxStamp_ns = std::int64_t{1} << 61;
+
+Result<void> checkStamp(std::int64_t ns) {
+  if (ns >= -kMaxStamp_ns && ns <= kMaxStamp_ns) return {};
+  return makeError(ErrorCode::InvalidInput, "a stamp of {} ns is no time of any clock; dropped",
+                   ns);
+}
+
+Result<void> checkDuration(double seconds) {
+  constexpr double kMost_s = 1e9;
+  if (seconds >= 0.0 && seconds <= kMost_s) return {};  // NaN is neither
+  return makeError(ErrorCode::InvalidInput, "a duration of {} s cannot be; dropped", seconds);
+}
+
+Result<void> firstError(std::initializer_list<Result<void>> checks) {
+  for (const Result<void>& check : checks) {
+    if (!check) return check;
+  }
+  return {};
 }
 
 void toProto(const Hello& hello, v1::Hello& out) {
@@ -23,22 +39,21 @@ void toProto(const Hello& hello, v1::Hello& out) {
   out.set_operator_name(validUtf8(hello.operator_name));
   out.set_expected_mission_uuid(hello.expected_mission_uuid);
   out.set_role(static_cast<std::uint32_t>(hello.role));
+  out.set_key(hello.key);
 }
 
 Result<Hello> fromProto(const v1::Hello& in) {
   // No enum check before the protocol number has been judged: another version may know other roles.
   const auto role = toEnum(in.role(), ClientRole::Supervisor, "role");
   if (!role && in.protocol() == kProtocolVersion) return tl::make_unexpected(role.error());
-  if (auto ok = checkName(in.client_id(), "client id"); !ok) return tl::make_unexpected(ok.error());
-  if (auto ok = checkName(in.operator_name(), "operator name"); !ok)
-    return tl::make_unexpected(ok.error());
   Hello hello;
   hello.protocol = in.protocol();
-  hello.version = in.version();
-  hello.client_id = in.client_id();
-  hello.operator_name = in.operator_name();
+  hello.version = printableName(in.version());
+  hello.client_id = printableName(in.client_id());
+  hello.operator_name = printableName(in.operator_name());
   hello.role = role.value_or(ClientRole::Viewer);
-  hello.expected_mission_uuid = in.expected_mission_uuid();
+  hello.expected_mission_uuid = printableName(in.expected_mission_uuid());
+  hello.key = in.key();
   return hello;
 }
 
@@ -52,9 +67,15 @@ void toProto(const Heartbeat& heartbeat, v1::Heartbeat& out) {
   out.set_robot_estimate_ns(heartbeat.robot_estimate_ns);
 }
 
-Heartbeat fromProto(const v1::Heartbeat& in) {
-  return {in.seq(),      in.station_send_ns(), in.robot_receive_ns(), in.robot_send_ns(),
-          in.rx_age_s(), in.rtt_s(),           in.robot_estimate_ns()};
+Result<Heartbeat> fromProto(const v1::Heartbeat& in) {
+  if (auto ok = firstError({checkStamp(in.station_send_ns()), checkStamp(in.robot_receive_ns()),
+                            checkStamp(in.robot_send_ns()), checkStamp(in.robot_estimate_ns()),
+                            checkDuration(in.rx_age_s()), checkDuration(in.rtt_s())});
+      !ok) {
+    return tl::make_unexpected(ok.error());
+  }
+  return Heartbeat{in.seq(),      in.station_send_ns(), in.robot_receive_ns(), in.robot_send_ns(),
+                   in.rx_age_s(), in.rtt_s(),           in.robot_estimate_ns()};
 }
 
 void toProto(const Command& command, v1::Command& out) {
@@ -68,12 +89,12 @@ void toProto(const Command& command, v1::Command& out) {
 }
 
 Result<Command> fromProto(const v1::Command& in) {
-  if (auto ok = checkName(in.client_id(), "client id"); !ok) return tl::make_unexpected(ok.error());
+  if (auto ok = checkStamp(in.issued_robot_ns()); !ok) return tl::make_unexpected(ok.error());
   auto body = bodyFromProto(in);
   if (!body) return tl::make_unexpected(body.error());
   Command command;
-  command.client_id = in.client_id();
-  command.operator_name = in.operator_name();
+  command.client_id = printableName(in.client_id());
+  command.operator_name = printableName(in.operator_name());
   command.nonce = in.nonce();
   command.lease_epoch = in.lease_epoch();
   command.issued = stampFromNanoseconds(in.issued_robot_ns());
@@ -172,7 +193,7 @@ Result<ToRobot> decodeToRobot(std::string_view bytes) {
     case v1::ToRobot::kHello:
       return widen<ToRobot>(fromProto(in->hello()));
     case v1::ToRobot::kHeartbeat:
-      return ToRobot{fromProto(in->heartbeat())};
+      return widen<ToRobot>(fromProto(in->heartbeat()));
     case v1::ToRobot::kCommand:
       return widen<ToRobot>(fromProto(in->command()));
     case v1::ToRobot::MESSAGE_NOT_SET:
@@ -188,7 +209,7 @@ Result<ToStation> decodeToStation(std::string_view bytes) {
     case v1::ToStation::kHello:
       return widen<ToStation>(fromProto(in->hello()));
     case v1::ToStation::kHeartbeat:
-      return ToStation{fromProto(in->heartbeat())};
+      return widen<ToStation>(fromProto(in->heartbeat()));
     case v1::ToStation::kAck:
       return widen<ToStation>(fromProto(in->ack()));
     case v1::ToStation::MESSAGE_NOT_SET:
@@ -208,9 +229,10 @@ std::string encode(const StopRequest& request) {
 }
 
 Result<StopRequest> decodeStopRequest(std::string_view bytes) {
-  const auto in = parse<v1::StopRequest>(bytes, kMaxCommandBytes, "stop request");
+  const auto in = parse<v1::StopRequest>(bytes, kMaxStopBytes, "stop request");
   if (!in) return tl::make_unexpected(in.error());
-  return StopRequest{in->client_id(), in->operator_name(), in->nonce(), in->sent_station_ns()};
+  return StopRequest{printableName(in->client_id()), printableName(in->operator_name()),
+                     in->nonce(), in->sent_station_ns()};
 }
 
 std::string encode(const StopAck& ack) {
@@ -225,6 +247,10 @@ std::string encode(const StopAck& ack) {
 Result<StopAck> decodeStopAck(std::string_view bytes) {
   const auto in = parse<v1::StopAck>(bytes, kMaxCommandBytes, "stop acknowledgement");
   if (!in) return tl::make_unexpected(in.error());
+  if (auto ok = firstError({checkStamp(in->sent_station_ns()), checkStamp(in->latched_robot_ns())});
+      !ok) {
+    return tl::make_unexpected(ok.error());
+  }
   return StopAck{in->nonce(), in->sent_station_ns(), in->latched_robot_ns(), in->latched()};
 }
 

@@ -7,8 +7,9 @@
 #include "common/model/link.h"
 
 /// model <-> command.proto: what the command and stop sockets carry. Decoders check form (known
-/// kinds, enums, lengths); whether a number may be obeyed is the command gate's decision, so NaN
-/// passes here and is refused there.
+/// kinds, enums, lengths, stamps and durations that can be) and clean names (core/text.h,
+/// printableName); whether a number may be obeyed is the command gate's decision, so a NaN in a
+/// setpoint passes here and is refused there.
 namespace kiln::wire {
 
 [[nodiscard]] std::string encode(const ToRobot& message);

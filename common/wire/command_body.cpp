@@ -88,8 +88,8 @@ Result<CommandBody> bodyFromProto(const v1::Command& in) {
     case v1::Command::kResume:
       return Resume{};
     case v1::Command::kChangeState:
-      return ChangeState{in.change_state().from(), in.change_state().step(),
-                         in.change_state().to()};
+      return ChangeState{printableName(in.change_state().from()), in.change_state().step(),
+                         printableName(in.change_state().to())};
     case v1::Command::kSetMode:
       return setModeFromProto(in.set_mode());
     case v1::Command::kClearStop:
@@ -103,15 +103,15 @@ Result<CommandBody> bodyFromProto(const v1::Command& in) {
     case v1::Command::kCancelMacro:
       return CancelMacro{};
     case v1::Command::kAcknowledgeAlarm:
-      return AcknowledgeAlarm{in.acknowledge_alarm()};
+      return AcknowledgeAlarm{printableName(in.acknowledge_alarm())};
     case v1::Command::kSetRecording:
       return SetRecording{in.set_recording()};
     case v1::Command::kSetPose:
       return SetPose{fromProto(in.set_pose())};
     case v1::Command::kNudgePlace:
-      return NudgePlace{in.nudge_place().place(), fromProto(in.nudge_place().by())};
+      return NudgePlace{printableName(in.nudge_place().place()), fromProto(in.nudge_place().by())};
     case v1::Command::kContinueDespite:
-      return ContinueDespite{in.continue_despite()};
+      return ContinueDespite{printableName(in.continue_despite())};
     case v1::Command::kJogBase:
       return JogBase{fromProto(in.jog_base())};
     case v1::Command::kJogArm:
@@ -119,7 +119,7 @@ Result<CommandBody> bodyFromProto(const v1::Command& in) {
     case v1::Command::kHoldPump:
       return HoldPump{in.hold_pump().left(), in.hold_pump().right()};
     case v1::Command::kHoldMacro:
-      return HoldMacro{in.hold_macro().name(), in.hold_macro().restart()};
+      return HoldMacro{printableName(in.hold_macro().name()), in.hold_macro().restart()};
     case v1::Command::kReleaseAll:
       return ReleaseAll{};
     case v1::Command::BODY_NOT_SET:
@@ -127,7 +127,7 @@ Result<CommandBody> bodyFromProto(const v1::Command& in) {
   }
   return makeError(ErrorCode::InvalidInput,
                    "command {} of '{}' is of an unknown kind; do both ends run the same version?",
-                   in.nonce(), in.client_id());
+                   in.nonce(), printableName(in.client_id()));
 }
 
 }  // namespace kiln::wire

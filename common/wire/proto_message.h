@@ -4,10 +4,11 @@
 #include <string>
 #include <string_view>
 
-#include <google/protobuf/message_lite.h>
+#include <google/protobuf/message.h>
 #include <google/protobuf/stubs/logging.h>
 
 #include "common/core/error.h"
+#include "common/core/text.h"
 
 /// For the .cpp files of this folder alone: generated types stay out of its public headers.
 namespace kiln::wire {
@@ -15,6 +16,10 @@ namespace kiln::wire {
 [[nodiscard]] inline std::string serialise(const google::protobuf::MessageLite& message) {
   return message.SerializeAsString();
 }
+
+/// Makes every string field, however deep, one line of printable characters (core/text.h): it came
+/// from outside and will be logged, shown and printed.
+void cleanText(google::protobuf::Message& message);
 
 /// @param limit largest size that is parsed at all.
 template <class Message>
@@ -29,6 +34,7 @@ template <class Message>
     return makeError(ErrorCode::InvalidInput, "{}: {} bytes cannot be parsed; dropped", what,
                      bytes.size());
   }
+  cleanText(message);
   return message;
 }
 
@@ -42,9 +48,5 @@ template <class Enum>
   }
   return static_cast<Enum>(number);
 }
-
-/// Text that may hold anything (log lines, names from a shell) made valid UTF-8: proto3 refuses
-/// other strings, and one bad byte must not cost the whole message.
-[[nodiscard]] std::string validUtf8(std::string_view text);
 
 }  // namespace kiln::wire

@@ -5,6 +5,7 @@
 
 #include "common/wire/cloud_codec.h"
 #include "common/wire/compress.h"
+#include "common/wire/jpeg_size.h"
 #include "common/wire/proto_message.h"
 #include "kiln/v1/sensor.pb.h"
 
@@ -160,6 +161,14 @@ Result<JpegImage> decodeJpeg(std::string_view bytes) {
     return makeError(ErrorCode::InvalidInput,
                      "colour image: {} bytes of JPEG, frame name of {} characters; dropped",
                      in->jpeg().size(), in->frame().size());
+  }
+  // What the picture itself says: a decoder takes memory by that.
+  const auto size = jpegSize(in->jpeg());
+  if (!size || size->width != static_cast<int>(in->width()) ||
+      size->height != static_cast<int>(in->height())) {
+    return makeError(ErrorCode::InvalidInput,
+                     "colour image: the JPEG is {} x {}, its message says {} x {}; dropped",
+                     size ? size->width : 0, size ? size->height : 0, in->width(), in->height());
   }
   JpegImage image;
   image.stamp = stampFromNanoseconds(in->stamp_ns());

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "common/record/jpeg_size.h"
+#include "common/wire/jpeg_size.h"
 
 namespace kiln::gui {
 

@@ -192,7 +192,7 @@ void MissionControl::onLeaseLost(Stamp now) {
 void MissionControl::observeStop(Stamp now) {
   if (!parts_.host.observeStop(now)) return;
   endHandWork(now);
-  logger("safety")->error("{}; clear it from a station that holds the lease", parts_.host.reason());
+  stop_log_.error("{}; clear it from a station that holds the lease", parts_.host.reason());
 }
 
 void MissionControl::holdMission(HoldReason reason, const std::string& text, Stamp now) {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "common/model/status.h"
+#include "common/transport/log_throttle.h"
 #include "robot/app/alarm_book.h"
 #include "robot/app/teleop.h"
 #include "robot/control/arm_controller.h"
@@ -61,6 +62,7 @@ class MissionControl final : public Authority::Handler {
   void endHandWork(Stamp now);
 
   Parts parts_;
+  LogThrottle stop_log_{"safety"};  ///< STOPs may come as a stream
 };
 
 }  // namespace kiln

@@ -23,8 +23,8 @@
 namespace kiln {
 
 /// The robot's side of the link. Two threads: `link`, sole owner of the command, status and streams
-/// sockets, and `stop` with a ZeroMQ context and socket of its own, which sets the StopLatch the
-/// moment a request arrives.
+/// sockets, and `stop` with a socket of its own, which sets the StopLatch the moment a request
+/// arrives. What a peer may cost is bounded (decision 18).
 ///
 /// Thread-safe: every method may be called from any thread and none blocks longer than a queue's
 /// mutex. Encoding (cloud compression) runs on the link thread, and only for topics that somebody
@@ -36,7 +36,8 @@ class OperatorLink {
                                                     ///< .. +3; or ipc:///dir/prefix
     std::string robot_name = "Bob";
     double forget_after_s = 30.0;  ///< a silent client is dropped from operators()
-    int command_queue = 256;  ///< commands waiting for the mission tick; more are refused as "busy"
+    int command_queue = 128;  ///< commands of one client that wait for the mission tick; more are
+                              ///< refused as "busy"
     double cloud_resolution_m = 0.005;  ///< 0.005 or 0.002
     void visit(ConfigArchive& a);
   };
@@ -60,7 +61,7 @@ class OperatorLink {
   // --- commands: drained by the mission tick
   // ---------------------------------------------------------------------
   [[nodiscard]] std::vector<ReceivedCommand> takeCommands();
-  /// Goes to ack.client_id; counted as dropped when that client is gone.
+  /// Goes to ack.client_id, if that client is still connected.
   void acknowledge(const CommandAck& ack);
   [[nodiscard]] std::vector<OperatorPeer> operators() const;
   void setMissionUuid(const std::string& uuid);

@@ -286,7 +286,7 @@ void Robot::Impl::obeyOperators(Stamp now) {
   const Authority::Step step =
       authority.step(link->takeCommands(), link->operators(), *control, now);
   for (const CommandAck& ack : step.acks) link->acknowledge(ack);
-  for (const std::string& event : step.events) logger("operators")->info("{}", event);
+  for (const std::string& event : step.events) operators_log.info("{}", event);
 }
 
 void Robot::Impl::runChecks(Stamp now) {

@@ -4,6 +4,7 @@
 
 #include <atomic>
 
+#include "common/transport/log_throttle.h"
 #include "robot/app/health_watch.h"
 #include "robot/app/mission_control.h"
 #include "robot/app/mission_report.h"
@@ -121,6 +122,7 @@ struct Robot::Impl {
   std::uint64_t recorded_ticks = 0;
   int starts_seen = 0;
   std::optional<Stamp> carried;  ///< the last reset, until the first scan has been matched
+  LogThrottle operators_log{"operators", 8.0};  ///< anybody may take and give back all day
   bool camera_runs = false;
   std::atomic<bool> ended{false}, succeeded{false};
 };

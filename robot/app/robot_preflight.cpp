@@ -34,7 +34,8 @@ std::vector<std::string> Robot::Impl::missingTransforms(Stamp now) const {
 }
 
 /// Stamps of devices may lie in the past, by what their way takes (their rows look at the age), but
-/// never in the future. A station stamps its commands by its idea of our clock.
+/// never in the future. A station stamps its commands by its idea of our clock; only that of the
+/// lease's holder matters.
 std::vector<ClockReading> Robot::Impl::clockReadings(Stamp now) const {
   std::vector<ClockReading> clocks;
   const auto device = [&](const char* name, std::optional<Stamp> stamp) {
@@ -45,8 +46,10 @@ std::vector<ClockReading> Robot::Impl::clockReadings(Stamp now) const {
   device("the pump board", stampOf(devices.pumps.state()));
   device("the LiDAR", perception.lastScan());
   if (!link || options.lockstep || options.environment == Environment::Replay) return clocks;
-  for (const OperatorPeer& peer : link->operators())
-    clocks.push_back({peer.name + "'s station", peer.clock_error_s});
+  const std::string holder = authority.lease(now).holder_client;
+  for (const OperatorPeer& peer : link->operators()) {
+    if (peer.client_id == holder) clocks.push_back({peer.name + "'s station", peer.clock_error_s});
+  }
   return clocks;
 }
 

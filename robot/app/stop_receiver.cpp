@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "common/core/log.h"
 #include "common/transport/stop_lane.h"
 #include "common/wire/command.h"
 
@@ -43,7 +42,7 @@ std::string StopReceiver::onRequest(std::string_view bytes) {
     handled_.push_back({request->client_id, request->nonce, latched});
     if (handled_.size() > kRemembered) handled_.pop_front();
     known = std::prev(handled_.end());
-    logger("link")->warn("STOP by {}", request->operator_name);
+    log_.warn("STOP by {}", request->operator_name);
   }
   return wire::encode(
       StopAck{request->nonce, request->sent_station_ns, toNanoseconds(known->latched), true});

@@ -7,6 +7,7 @@
 
 #include "common/core/clock.h"
 #include "common/core/error.h"
+#include "common/transport/log_throttle.h"
 #include "robot/safety/stop_latch.h"
 
 namespace kiln {
@@ -14,7 +15,7 @@ namespace kiln {
 class StopServer;
 
 /// The robot's half of the STOP lane: sets the latch the moment a request arrives, on a thread,
-/// socket and ZeroMQ context of its own. Asks for no lease and no hello. Whatever arrives here
+/// and socket of its own. Asks for no lease and no hello. Whatever arrives here
 /// means stop, readable or not.
 ///
 /// Confined to the lane's thread.
@@ -43,6 +44,7 @@ class StopReceiver {
   const Clock& clock_;
   StopLatch& latch_;
   std::deque<Handled> handled_;
+  LogThrottle log_{"link"};
   std::unique_ptr<StopServer> server_;  // last: its thread calls all of the above
 };
 

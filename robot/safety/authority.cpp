@@ -42,8 +42,10 @@ Authority::Step Authority::step(const std::vector<ReceivedCommand>& received,
     const std::string why = fmt::format("STOP by {}", found.stop_source);
     lease_.revoke(why);
     invalidate();
-    step.events.push_back(why);
+    if (!stop_said_) step.events.push_back(why);  // not each of a stream of STOPs
+    stop_said_ = true;
   }
+  stop_said_ = stop_said_ && found.stop_latched;
   for (const OperatorPeer& peer : peers) lease_.heard(peer.client_id, peer.last_heard);
   applyEvents(handler, now, step);
   for (const ReceivedCommand& command : received) handle(command, handler, now, step);
@@ -60,7 +62,8 @@ GateDecision Authority::judge(const ReceivedCommand& received, const LeaseStatus
   GateDecision decision = gate_.decide(received, lease, situation, now);
   if (!decision.accepted) {
     const bool only_this_message = decision.code == "replayed" || decision.code == "out_of_order" ||
-                                   decision.code == "too_old" || decision.code == "in_future";
+                                   decision.code == "bad_number" || decision.code == "too_old" ||
+                                   decision.code == "in_future";
     dead_man_.refused(command, only_this_message);
   } else if (isSetpoint(command.body) && !dead_man_.mayFeed(command)) {
     return gate::refuse("press_over", "this press has ended; let go and press again");

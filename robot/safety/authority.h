@@ -78,6 +78,7 @@ class Authority {
   DeadMan dead_man_;
   SafetyEpoch epoch_;
   std::uint64_t stop_seen_ = 0;                ///< generation
+  bool stop_said_ = false;                     ///< of the latch as it is
   std::map<std::string, Stamp> last_refusal_;  ///< of setpoints, by client, kind and code; bounded
 };
 

@@ -107,6 +107,12 @@ GateDecision CommandGate::checkFreshness(const ReceivedCommand& received, Stamp 
     case ReplayFilter::Verdict::OutOfOrder:
       return refuse("out_of_order",
                     fmt::format("setpoint {} was overtaken by a newer one", command.nonce));
+    case ReplayFilter::Verdict::Implausible:
+      return refuse("bad_number", fmt::format("command number {} lies too far ahead of the last; "
+                                              "restart the client",
+                                              command.nonce));
+    case ReplayFilter::Verdict::TooMany:
+      return refuse("too_many_clients", "too many clients come and go; try again in some seconds");
   }
   if (isRelease(command.body)) return {};
   const double limit_s = setpoint ? config_.setpoint_age_s

@@ -38,11 +38,11 @@ struct GateDecision {
 /// The first rule that objects names the refusal. Releases (explicit zeros) pass regardless of age,
 /// mode and preconditions: they only ever stop.
 ///
-/// Codes: viewer no_lease old_lease replayed out_of_order too_old in_future not_finite out_of_range
-/// mission_running moving stopped wrong_mode not_ready already_running not_running not_paused
-/// position_lost not_stopped newer_stop still_held no_protective_stop protective_stop stale_view
-/// link_slow; press_over comes from the authority. Confined to the
-/// mission thread; its only memory is the nonces.
+/// Codes: viewer no_lease old_lease replayed out_of_order bad_number too_many_clients too_old
+/// in_future not_finite out_of_range mission_running moving stopped wrong_mode not_ready
+/// already_running not_running not_paused position_lost not_stopped newer_stop still_held
+/// no_protective_stop protective_stop stale_view link_slow; press_over comes from the authority.
+/// Confined to the mission thread; its only memory is the nonces.
 class CommandGate {
  public:
   struct Config {

@@ -1,15 +1,18 @@
 #include "robot/sim/world_server.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 
+#include <poll.h>
 #include <sys/socket.h>
 #include <sys/un.h>
 #include <unistd.h>
-#include <zmq.hpp>
 
 #include "common/core/log.h"
+#include "common/transport/log_throttle.h"
+#include "common/transport/zmtp_server.h"
 #include "robot/sim/device_wire.h"
 #include "robot/sim/picture_thread.h"
 #include "robot/sim/truth_report.h"
@@ -17,13 +20,21 @@
 namespace kiln::sim {
 namespace {
 
-constexpr const char* kMonitor = "inproc://kiln.sim.monitor";
-constexpr int kIdlePoll_ms = 100;
-constexpr int kQueue = 64;  // messages; a robot that reads no more loses reports
+constexpr double kIdlePoll_s = 0.1;
 constexpr Duration kSlip =
     std::chrono::milliseconds(100);  // later than that the world's clock waits
 
-/// ZeroMQ would silently take over a socket file that another world listens on.
+/// Commands of one robot at a time, of any number that it likes; strangers get little.
+ZmtpServer::Limits limits() {
+  ZmtpServer::Limits out;
+  out.max_peers = 16;
+  out.max_queued_bytes = 64 << 20;  // reports to a robot that reads no more
+  out.kept_messages_per_s = 1e6;    // in lockstep as fast as both can
+  out.kept_bytes_per_s = 1e9;
+  return out;
+}
+
+/// The listening socket would silently take over a file that another world listens on.
 bool someoneListens(const std::string& path) {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
@@ -61,12 +72,11 @@ struct WorldServer::Impl {
   Impl(const Config& c, World& w, const Clock& k) : config(c), world(w), clock(k) {}
 
   Result<void> bind();
-  void handleSocket();
-  void handle(const std::string& id, int fd, const v1::device::ToWorld& message);
-  void hello(const std::string& id, int fd, const v1::device::Hello& message);
-  void noticeDisconnects();
+  void onMessage(PeerId from, std::string_view bytes);
+  void handle(PeerId from, const v1::device::ToWorld& message);
+  void hello(PeerId from, const v1::device::Hello& message);
   void release(const char* why);
-  void send(const std::string& id, const v1::device::ToRobot& message);
+  void send(PeerId to, const v1::device::ToRobot& message);
   void publish(const WorldReport& report);
   void runLockstep(const v1::device::Advance& advance, const WorldCommands& commands);
   void runRealTime();
@@ -76,11 +86,11 @@ struct WorldServer::Impl {
   Config config;
   World& world;
   const Clock& clock;
-  zmq::context_t context{1};
-  zmq::socket_t socket{context, zmq::socket_type::router};
-  zmq::socket_t monitor{context, zmq::socket_type::pair};
-  std::string holder;  ///< routing id of the robot, empty: none
-  int holder_fd = -1;
+  std::unique_ptr<ZmtpServer> socket;
+  PeerId holder = 0;             ///< connection of the robot, 0: none
+  std::uint32_t holder_pid = 0;  ///< as it says
+  LogThrottle unreadable{"sim.server"}, refused{"sim.server"}, came{"sim.server"},
+      went{"sim.server"};
   std::unique_ptr<PictureThread> pictures;
   std::ofstream trace_file;
   Stamp next_trace;
@@ -92,18 +102,17 @@ struct WorldServer::Impl {
 
 Result<void> WorldServer::Impl::bind() {
   if (auto ok = checkEndpoint(config.endpoint); !ok) return ok;
-  try {
-    socket.set(zmq::sockopt::linger, 200);  // ms: the last words of a world that ends
-    socket.set(zmq::sockopt::sndhwm, kQueue);
-    socket.set(zmq::sockopt::router_mandatory, true);
-    ::zmq_socket_monitor(socket.handle(), kMonitor, ZMQ_EVENT_DISCONNECTED);
-    monitor.connect(kMonitor);
-    socket.bind(config.endpoint);
-  } catch (const zmq::error_t& e) {
-    return makeError(ErrorCode::Unavailable,
-                     "cannot listen on {}: {}; stop what uses it or choose another address",
-                     config.endpoint, e.what());
+  auto bound = ZmtpServer::bind(config.endpoint, ZmtpKind::Router, limits());
+  if (!bound) {
+    return makeError(ErrorCode::Unavailable, "cannot listen on {}: {}", config.endpoint,
+                     bound.error().message);
   }
+  socket = std::move(*bound);
+  socket->setHandlers({[this](PeerId from, std::string_view bytes) { onMessage(from, bytes); },
+                       [this](PeerId peer) {
+                         if (peer == holder) release("connection closed");
+                       },
+                       {}});
   if (!config.trace_path.empty()) {
     trace_file.open(config.trace_path, std::ios::trunc);
     if (!trace_file)
@@ -114,54 +123,33 @@ Result<void> WorldServer::Impl::bind() {
 }
 
 void WorldServer::Impl::release(const char* why) {
-  if (holder.empty()) return;
-  logger("sim.server")->info("robot left: {}", why);
-  holder.clear();
-  holder_fd = -1;
+  if (holder == 0) return;
+  went.info("robot left: {}", why);
+  holder = 0;
   WorldCommands nothing;
   nothing.sensors = SensorRequest{};  // sensors cost time and nobody looks
   world.command(nothing);
 }
 
-void WorldServer::Impl::noticeDisconnects() {
-  zmq::message_t event, address;
-  while (monitor.recv(event, zmq::recv_flags::dontwait)) {
-    (void)monitor.recv(address, zmq::recv_flags::none);
-    std::int32_t fd = -1;  // event: 16 bit number, 32 bit value
-    std::memcpy(&fd, event.data<char>() + 2, sizeof(fd));
-    if (!holder.empty() && fd == holder_fd) release("connection closed");
-  }
-}
-
-void WorldServer::Impl::send(const std::string& id, const v1::device::ToRobot& message) {
-  zmq::message_t body(message.ByteSizeLong());
-  message.SerializeWithCachedSizesToArray(body.data<std::uint8_t>());
-  try {
-    if (!socket.send(zmq::buffer(id), zmq::send_flags::sndmore | zmq::send_flags::dontwait)) {
-      ++lost_reports;
-      return;
-    }
-    (void)socket.send(body, zmq::send_flags::dontwait);
-  } catch (const zmq::error_t& e) {
-    if (e.num() == EHOSTUNREACH && id == holder) release("connection gone");
-  }
+void WorldServer::Impl::send(PeerId to, const v1::device::ToRobot& message) {
+  if (!socket->send(to, frameMessage({message.SerializeAsString()}))) ++lost_reports;
 }
 
 void WorldServer::Impl::publish(const WorldReport& report) {
-  if (holder.empty()) return;
+  if (holder == 0) return;
   v1::device::ToRobot message;
   toProto(report, *message.mutable_report());
   send(holder, message);
 }
 
-void WorldServer::Impl::hello(const std::string& id, int fd, const v1::device::Hello& m) {
+void WorldServer::Impl::hello(PeerId from, const v1::device::Hello& m) {
   using namespace v1::device;
   ToRobot answer;
   HelloReply& reply = *answer.mutable_hello();
   const auto refuse = [&](Refusal why, std::string words) {
     reply.set_refusal(why);
     reply.set_reason(std::move(words));
-    logger("sim.server")->warn("robot refused: {}", reply.reason());
+    refused.warn("robot refused: {}", reply.reason());
   };
   reply.set_now_ns(toNanoseconds(world.now()));
   reply.set_lockstep(config.lockstep);
@@ -173,20 +161,23 @@ void WorldServer::Impl::hello(const std::string& id, int fd, const v1::device::H
                                         "robot {} of {}; build both from one tree",
                                         static_cast<int>(PROTOCOL_CURRENT), config.version,
                                         m.protocol(), m.version()));
-  } else if (!holder.empty() && holder != id) {
-    refuse(REFUSAL_BUSY, "another kiln-robotd drives this robot; stop it first");
+  } else if (holder != 0 && holder != from) {
+    refuse(REFUSAL_BUSY, fmt::format("its robot is in use by daemon {}, another kiln-robotd; stop "
+                                     "that one first",
+                                     holder_pid));
   } else if (m.lockstep() != config.lockstep) {
     refuse(REFUSAL_MODE, config.lockstep
                              ? "the world runs in lockstep; start kiln-robotd with --lockstep"
                              : "the world runs in real time; start kiln-robotd without --lockstep");
   } else {
-    holder = id;
-    holder_fd = fd;
+    holder = from;
+    holder_pid = m.pid();
+    socket->keep(from);
     reply.set_accepted(true);
     next_report = clock.now();
-    logger("sim.server")->info("robot connected at {:.3f} s", toSeconds(world.now()));
+    came.info("robot connected at {:.3f} s", toSeconds(world.now()));
   }
-  send(id, answer);
+  send(from, answer);
 }
 
 void WorldServer::Impl::runLockstep(const v1::device::Advance& advance,
@@ -197,16 +188,16 @@ void WorldServer::Impl::runLockstep(const v1::device::Advance& advance,
   trace();
 }
 
-void WorldServer::Impl::handle(const std::string& id, int fd, const v1::device::ToWorld& m) {
-  if (m.has_hello()) return hello(id, fd, m.hello());
-  if (id != holder) return;  // was refused, or has said bye
+void WorldServer::Impl::handle(PeerId from, const v1::device::ToWorld& m) {
+  if (m.has_hello()) return hello(from, m.hello());
+  if (from != holder) return;  // was refused, or has said bye
   if (m.has_bye()) {
     if (auto ok = writeTruth(); !ok) logger("sim.server")->error("{}", ok.error().message);
     return release("it said bye");
   }
   if (!m.has_advance()) return;
   const auto commands = fromProto(m.advance());
-  if (!commands) logger("sim.server")->warn("message ignored: {}", commands.error().message);
+  if (!commands) unreadable.warn("message ignored: {}", commands.error().message);
   if (config.lockstep) {
     runLockstep(m.advance(), commands.value_or(WorldCommands{}));
   } else if (commands) {
@@ -214,23 +205,13 @@ void WorldServer::Impl::handle(const std::string& id, int fd, const v1::device::
   }
 }
 
-void WorldServer::Impl::handleSocket() {
-  noticeDisconnects();
-  zmq::message_t id, body;
-  while (socket.recv(id, zmq::recv_flags::dontwait)) {
-    if (!id.more()) continue;
-    (void)socket.recv(body, zmq::recv_flags::none);
-    const int fd = ::zmq_msg_get(body.handle(), ZMQ_SRCFD);
-    const bool last = !body.more();
-    while (body.more()) (void)socket.recv(body, zmq::recv_flags::none);
-    v1::device::ToWorld message;
-    if (!last || !message.ParseFromArray(body.data(), static_cast<int>(body.size()))) {
-      logger("sim.server")
-          ->warn("message of {} bytes is not of this protocol; ignored", body.size());
-      continue;
-    }
-    handle(id.to_string(), fd, message);
+void WorldServer::Impl::onMessage(PeerId from, std::string_view bytes) {
+  v1::device::ToWorld message;
+  if (!message.ParseFromArray(bytes.data(), static_cast<int>(bytes.size()))) {
+    return unreadable.warn("{}: a message of {} bytes is not of this protocol; ignored",
+                           socket->nameOf(from), bytes.size());
   }
+  handle(from, message);
 }
 
 /// One device period: the world catches up with the clock. A machine that is too slow slows the
@@ -283,21 +264,13 @@ Result<void> WorldServer::run(const std::atomic<bool>& stop) {
   Impl& w = *impl_;
   w.offset = w.clock.now() - w.world.now();
   w.next_report = w.clock.now();
-  zmq::pollitem_t items[] = {{w.socket.handle(), 0, ZMQ_POLLIN, 0},
-                             {w.monitor.handle(), 0, ZMQ_POLLIN, 0}};
   while (!stop.load()) {
-    std::chrono::milliseconds wait{kIdlePoll_ms};
-    if (!w.config.lockstep) {
-      const Duration left = std::max(Duration{0}, w.next_report - w.clock.now());
-      wait = std::chrono::ceil<std::chrono::milliseconds>(left);
-    }
-    try {
-      zmq::poll(items, 2, wait);
-      w.handleSocket();
-    } catch (const zmq::error_t& e) {
-      if (e.num() != EINTR)
-        return makeError(ErrorCode::Fault, "socket {}: {}", w.config.endpoint, e.what());
-    }
+    double wait_s = std::min(kIdlePoll_s, w.socket->wait_s());
+    if (!w.config.lockstep)
+      wait_s = std::clamp(toSeconds(w.next_report - w.clock.now()), 0.0, wait_s);
+    pollfd item{w.socket->fd(), POLLIN, 0};
+    ::poll(&item, 1, static_cast<int>(std::ceil(wait_s * 1e3)));  // a signal ends it too
+    w.socket->serve();
     if (!w.config.lockstep) w.runRealTime();
   }
   return w.writeTruth();

@@ -112,6 +112,7 @@ v1::device::Hello SimLink::Impl::hello() const {
   m.set_protocol(v1::device::PROTOCOL_CURRENT);
   m.set_lockstep(config.lockstep);
   m.set_version(config.version);
+  m.set_pid(static_cast<std::uint32_t>(::getpid()));
   return m;
 }
 

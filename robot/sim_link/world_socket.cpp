@@ -15,6 +15,7 @@ constexpr std::chrono::milliseconds kSlice{100};
 constexpr int kHelloEvery = 10;  // slices between two hellos
 constexpr int kBusyTries = 10;   // slices: a killed daemon's connection closes within one
 constexpr int kQueue = 64;       // messages each way
+constexpr std::int64_t kMaxReport = 64 << 20;  // bytes; a scan and a picture have two million
 constexpr const char* kMonitor = "inproc://kiln.sim_link.monitor";
 
 Error refused(const v1::device::HelloReply& reply) {
@@ -60,6 +61,7 @@ Result<std::unique_ptr<WorldSocket>> WorldSocket::open(const std::string& endpoi
     out->sockets_->data.set(zmq::sockopt::immediate, true);
     out->sockets_->data.set(zmq::sockopt::sndhwm, kQueue);
     out->sockets_->data.set(zmq::sockopt::rcvhwm, kQueue);
+    out->sockets_->data.set(zmq::sockopt::maxmsgsize, kMaxReport);
     ::zmq_socket_monitor(out->sockets_->data.handle(), kMonitor, ZMQ_EVENT_DISCONNECTED);
     out->sockets_->monitor.set(zmq::sockopt::linger, 0);
     out->sockets_->monitor.connect(kMonitor);
@@ -118,6 +120,7 @@ Result<v1::device::HelloReply> WorldSocket::hello(const v1::device::Hello& messa
   *out.mutable_hello() = message;
   const int slices = std::max(1, static_cast<int>(std::lround(timeout_s / 0.1)));
   int since_sent = kHelloEvery, busy = 0;
+  std::optional<Error> objection;
   for (int slice = 0; slice < slices; ++slice) {
     if (since_sent++ >= kHelloEvery && send(out)) since_sent = 0;
     const auto answer = receive(kSlice);
@@ -127,9 +130,11 @@ Result<v1::device::HelloReply> WorldSocket::hello(const v1::device::Hello& messa
     if (answer->hello().refusal() != v1::device::REFUSAL_BUSY || ++busy > kBusyTries) {
       return tl::make_unexpected(refused(answer->hello()));
     }
+    objection = refused(answer->hello());
     (void)receive(kSlice);
     since_sent = kHelloEvery;
   }
+  if (objection) return tl::make_unexpected(*objection);
   return makeError(ErrorCode::Unavailable,
                    "kiln-sim does not answer on {} within {:.1f} s; start it first", endpoint_,
                    timeout_s);

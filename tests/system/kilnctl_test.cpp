@@ -22,9 +22,10 @@ using ::testing::HasSubstr;
 /// kilnctl as a process of its own, its output caught.
 class Kilnctl {
  public:
-  Kilnctl(const std::string& endpoint, std::vector<std::string> args) {
+  Kilnctl(const std::string& endpoint, std::vector<std::string> args,
+          const std::string& name = "ctl") {
     args.insert(args.begin(), {kiln::binaryDir() + "/bin/kilnctl", "--json", "--connect", endpoint,
-                               "--name", "ctl"});
+                               "--name", name});
     std::vector<char*> argv;
     for (std::string& arg : args) argv.push_back(arg.data());
     argv.push_back(nullptr);
@@ -120,6 +121,19 @@ TEST(KilnctlProgram, KilledItIsADeadMan) {
   EXPECT_EQ(countOf<ReleaseAll>(robot), 0);
   ASSERT_TRUE(tickUntil(
       robot, [&] { return robot.authority.lease(robot.clock.now()).holder_client.empty(); }));
+}
+
+TEST(KilnctlProgram, ItsStopCountsWhateverItIsCalled) {
+  for (const std::string& name :
+       {std::string(70'000, 'x'), std::string("\x1b[2J\n"), std::string()}) {
+    const TempFolder folder;
+    LinkedRobot robot(folder.endpoint());
+    Kilnctl ctl(folder.endpoint(), {"stop"}, name);
+    ASSERT_TRUE(tickUntil(robot, [&] { return ctl.ended(); }));
+    EXPECT_EQ(ctl.exitCode(), 0) << ctl.text();
+    EXPECT_TRUE(robot.stop.latched());
+    EXPECT_LE(robot.stop.source().size(), 70u);
+  }
 }
 
 TEST(KilnctlProgram, StopNeedsNoControl) {

@@ -4,6 +4,7 @@
 #include "common/transport/robot_end.h"
 #include "common/transport/station_end.h"
 #include "common/wire/command.h"
+#include "tests/support/raw_zmtp.h"
 #include "tests/system/two_ends.h"
 
 namespace kiln::test {
@@ -31,6 +32,52 @@ TEST(OperatorLink, CarriesStatusGraphAndCloudToAStation) {
   EXPECT_EQ(op.fsm_info.mission, "fire");
   EXPECT_NEAR(op.cloud->y.at(0), -2.0, 0.0026);
   EXPECT_EQ(robot.link->operators().at(0).name, "anna");
+}
+
+TEST(OperatorLink, NoOtherSubscriberSwitchesTelemetryOffOrOn) {
+  const TempFolder folder;
+  LinkedRobot robot(folder.endpoint());
+  const auto addresses = parseEndpoint(folder.endpoint());
+  ASSERT_TRUE(addresses.has_value());
+  {
+    RawZmtp wrong_port(addresses->status);
+    ASSERT_TRUE(wrong_port.shakeHands("SUB") && wrong_port.send("\1operator_camera"));
+    RawZmtp right_port(addresses->streams);
+    ASSERT_TRUE(right_port.shakeHands("SUB") && right_port.send("\1rgb\1head_camera"));
+    EXPECT_FALSE(tickUntil(
+        robot, [&] { return robot.link->wanted("operator_camera"); }, 0.3));
+  }
+  LinkedOperator op(operatorConfig(folder.endpoint(), "anna"));
+  ASSERT_TRUE(connected(robot, op));
+  const auto bothCome = [&] {
+    int before_status = 0, before_cloud = 0;
+    {
+      const std::lock_guard lock(op.mutex);
+      before_status = op.received[Topic::RobotStatus];
+      before_cloud = op.received[Topic::Cloud];
+    }
+    return tickUntil(
+        robot,
+        [&] {
+          robot.link->publish(std::make_shared<const PointCloud>());
+          const std::lock_guard lock(op.mutex);
+          return op.received[Topic::RobotStatus] > before_status + 3 &&
+                 op.received[Topic::Cloud] > before_cloud + 3;
+        },
+        5.0);
+  };
+  EXPECT_TRUE(bothCome());
+  {
+    RawZmtp status(addresses->status), streams(addresses->streams), wrong(addresses->status);
+    ASSERT_TRUE(status.shakeHands("XSUB") && streams.shakeHands("SUB") && wrong.shakeHands("SUB"));
+    for (const char first : {'\1', '\0', '\2', '\xFF'}) {
+      status.send(first + std::string("robot_status"));
+      streams.send(first + std::string("cloud"));
+      wrong.send(first + std::string("cloud"));
+    }
+    EXPECT_TRUE(bothCome());
+  }
+  EXPECT_TRUE(bothCome());  // and they have left
 }
 
 TEST(OperatorLink, EstimatesTheClockOffsetOnTheSameMachineAsZero) {

@@ -6,7 +6,7 @@
 #include <google/protobuf/descriptor.pb.h>
 #include <gtest/gtest.h>
 
-#include "common/record/jpeg_size.h"
+#include "common/wire/jpeg_size.h"
 #include "common/record/run_topics.h"
 #include "common/record/schema.h"
 #include "common/wire/recording.h"

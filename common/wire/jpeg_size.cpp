@@ -1,4 +1,4 @@
-#include "common/record/jpeg_size.h"
+#include "common/wire/jpeg_size.h"
 
 #include <cstdint>
 
