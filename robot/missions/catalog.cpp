@@ -1,7 +1,5 @@
 #include "robot/missions/catalog.h"
 
-#include <fmt/ranges.h>
-
 #include "robot/missions/fire/make_fire.h"
 #include "robot/missions/mapping/mapping_mission.h"
 
@@ -10,32 +8,6 @@ namespace kiln {
 const std::vector<MissionKind>& missionKinds() {
   static const std::vector<MissionKind> kKinds{fireMissionKind(), mappingMissionKind()};
   return kKinds;
-}
-
-const MissionKind* findMission(const std::string& name) {
-  for (const MissionKind& kind : missionKinds())
-    if (kind.name == name) return &kind;
-  return nullptr;
-}
-
-MissionConfigs missionConfigs() {
-  std::vector<MissionConfigs::Section> sections;
-  for (const MissionKind& kind : missionKinds())
-    sections.push_back({kind.name, "mission " + kind.name, kind.config()});
-  return MissionConfigs(std::move(sections));
-}
-
-std::string missionHelp() {
-  std::vector<std::string> lines;
-  for (const MissionKind& kind : missionKinds())
-    lines.push_back(fmt::format("{}: {}", kind.name, kind.doc));
-  return fmt::format("{}", fmt::join(lines, "; "));
-}
-
-std::vector<std::string> missionNames() {
-  std::vector<std::string> names;
-  for (const MissionKind& kind : missionKinds()) names.push_back(kind.name);
-  return names;
 }
 
 }  // namespace kiln

@@ -1,0 +1,33 @@
+#include "robot/missions/catalog.h"
+
+#include <fmt/ranges.h>
+
+namespace kiln {
+
+const MissionKind* findMission(const std::string& name) {
+  for (const MissionKind& kind : missionKinds())
+    if (kind.name == name) return &kind;
+  return nullptr;
+}
+
+MissionConfigs missionConfigs() {
+  std::vector<MissionConfigs::Section> sections;
+  for (const MissionKind& kind : missionKinds())
+    sections.push_back({kind.name, "mission " + kind.name, kind.config()});
+  return MissionConfigs(std::move(sections));
+}
+
+std::string missionHelp() {
+  std::vector<std::string> lines;
+  for (const MissionKind& kind : missionKinds())
+    lines.push_back(fmt::format("{}: {}", kind.name, kind.doc));
+  return fmt::format("{}", fmt::join(lines, "; "));
+}
+
+std::vector<std::string> missionNames() {
+  std::vector<std::string> names;
+  for (const MissionKind& kind : missionKinds()) names.push_back(kind.name);
+  return names;
+}
+
+}  // namespace kiln
