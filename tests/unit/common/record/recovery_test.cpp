@@ -1,5 +1,6 @@
 // Files that a crash, a full disk or a bad sector has damaged.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "common/record/mcap_encode.h"
 #include "common/record/run_topics.h"
@@ -89,6 +90,17 @@ TEST(Recovery, OtherFilesAreRefusedInWords) {
     EXPECT_EQ(reader.error().code, ErrorCode::InvalidInput);
   }
   EXPECT_EQ(RecordReader::open(folder.file("absent")).error().code, ErrorCode::NotFound);
+}
+
+TEST(Recovery, FifosFoldersAndDevicesAreRefusedAtOnce) {
+  const RecordFolder folder;
+  ASSERT_EQ(::mkfifo(folder.file("fifo").c_str(), 0600), 0);
+  for (const std::string& path :
+       {folder.file("fifo"), folder.file("."), std::string("/dev/zero")}) {
+    const auto reader = RecordReader::open(path);
+    ASSERT_FALSE(reader) << path;
+    EXPECT_NE(reader.error().message.find("not a file"), std::string::npos) << reader.error();
+  }
 }
 
 TEST(Recovery, NoDamageCrashesTheReader) {
