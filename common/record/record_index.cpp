@@ -19,6 +19,8 @@ bool addChunk(RecordIndex& index, const mcap::ChunkIndex& c, std::uint64_t file_
   if (c.offset > file_size || c.length > file_size - c.offset) return false;
   ChunkEntry entry{c.offset, c.length, c.start_time, c.end_time, {}, c.compression};
   for (const auto& [channel, offset] : c.message_index_offsets) entry.channels.push_back(channel);
+  if (c.message_index_length > file_size) return false;
+  entry.index_length = c.message_index_length;
   // A message index has 9 + 2 + 4 bytes and 16 a message.
   const std::uint64_t heads = 15 * entry.channels.size();
   if (c.message_index_length > heads) entry.messages = (c.message_index_length - heads) / 16;
@@ -85,7 +87,7 @@ bool describesAll(const RandomFile& file, const RecordIndex& index, std::uint64_
   for (const ChunkEntry& chunk : index.chunks) {
     if (chunk.channels.empty() && index.message_counts.empty()) return false;
     if (!std::all_of(chunk.channels.begin(), chunk.channels.end(), known)) return false;
-    spans.emplace_back(chunk.offset, chunk.offset + chunk.length);
+    spans.emplace_back(chunk.offset, chunk.offset + chunk.length + chunk.index_length);
   }
   std::sort(spans.begin(), spans.end());
   std::uint64_t at = mcap::kMagic.size();

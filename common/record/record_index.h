@@ -38,6 +38,7 @@ struct ChunkEntry {
   std::string compression;              ///< as the file names it; empty: none
   std::uint64_t messages = 0;           ///< 0: not known
   bool loose = false;                   ///< messages outside of chunks
+  std::uint64_t index_length = 0;       ///< of the message indexes behind it, if a summary says so
 };
 
 /// What is where in a recording.
