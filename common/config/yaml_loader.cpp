@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fstream>
 #include <optional>
+#include <set>
 #include <sstream>
 
 #include <fmt/ranges.h>
@@ -84,10 +85,13 @@ class YamlLoader final : public ConfigArchive {
     for (std::size_t i = 0; i < node->size(); ++i) visitMap(name, (*node)[i], item(i));
   }
 
-  /// After the visit: every key of the file must have been asked for.
+  /// After the visit: every key of the file must have been asked for, once.
   void refuseUnknownKeys() {
+    std::set<std::string> seen;
     for (const auto& entry : map_) {
       const std::string key = entry.first.Scalar();
+      if (!seen.insert(key).second)
+        return fail(entry.first, fmt::format("key '{}' stands twice; leave one of them", key));
       if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
       const std::string near = nearestName(key, known_);
       return fail(entry.first,
@@ -137,7 +141,10 @@ Result<void> loadYamlText(const std::string& text, const std::string& name,
                           const ConfigNode& root) {
   try {
     const YAML::Node document = YAML::Load(text);
-    if (document.IsNull()) return {};  // an empty file keeps every default
+    if (document.IsNull()) {
+      return makeError(ErrorCode::InvalidInput, "{}:1: says nothing; give a file with its keys",
+                       name);
+    }
     if (!document.IsMap())
       return makeError(ErrorCode::InvalidInput, "{}:1: expected 'key: value' lines", name);
     std::string error;
@@ -173,6 +180,9 @@ Result<void> loadYaml(const std::string& path, const ConfigNode& root) {
   if (!std::filesystem::is_regular_file(path, ec)) {
     return makeError(ErrorCode::NotFound, "{}: no such config file; check the path", path);
   }
+  constexpr std::uintmax_t kMaxBytes = 1u << 20;
+  if (std::filesystem::file_size(path, ec) > kMaxBytes)
+    return makeError(ErrorCode::InvalidInput, "{}: larger than 1 MiB; no config file is", path);
   std::ifstream in(path);
   if (!in) return makeError(ErrorCode::NotFound, "{}: cannot be read; check its permissions", path);
   std::ostringstream text;

@@ -10,7 +10,8 @@
 namespace kiln {
 
 Result<std::shared_ptr<const RandomFile>> RandomFile::open(const std::string& path) {
-  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  // O_NONBLOCK: a FIFO is refused at once, not waited for.
+  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (fd < 0) {
     return makeError(ErrorCode::NotFound, "{}: cannot open the recording: {}", path,
                      std::strerror(errno));

@@ -9,7 +9,7 @@
 namespace kiln {
 namespace {
 
-constexpr std::size_t kMaxLoadedChunks = 64;  // a recorder's chunks overlap by one or two
+constexpr std::size_t kMaxLoadedBytes = 48u << 20;  // a recorder's chunks overlap by one or two
 constexpr std::uint64_t kLatestTime = std::numeric_limits<std::int64_t>::max();
 
 Stamp stampOf(std::uint64_t time) {
@@ -44,7 +44,7 @@ bool RecordCursor::wanted(std::uint16_t channel) const {
 }
 
 void RecordCursor::seek(Stamp t) {
-  from_ = timeOf(t);
+  from_ = std::max(timeOf(t), content_->index.start_time);
   loaded_.clear();
   next_chunk_ =
       static_cast<std::size_t>(std::lower_bound(ends_.begin(), ends_.end(), from_) - ends_.begin());
@@ -54,13 +54,16 @@ Result<void> RecordCursor::load(std::size_t order) {
   const ChunkEntry& chunk = content_->index.chunks[order_[order]];
   if (chunk.end_time < from_)
     return {};  // before the place that was sought, in spite of an overlap
-  if (loaded_.size() >= kMaxLoadedChunks) {
-    return makeError(ErrorCode::InvalidInput,
-                     "{}: more than {} chunks overlap in time at {}; one is left out",
-                     content_->file->path(), kMaxLoadedChunks, chunk.offset);
-  }
   auto records = readChunk(*content_->file, chunk);
   if (!records) return tl::make_unexpected(records.error());
+  std::size_t held = records->size();
+  for (const Loaded& other : loaded_)
+    held += other.records->size() + other.entries.size() * sizeof(Entry);
+  if (!loaded_.empty() && held > kMaxLoadedBytes) {
+    return makeError(ErrorCode::InvalidInput,
+                     "{}: chunks of more than {} MiB overlap in time at {}; one is left out",
+                     content_->file->path(), kMaxLoadedBytes >> 20, chunk.offset);
+  }
   Loaded loaded;
   loaded.order = order;
   loaded.records = std::make_shared<const std::string>(std::move(*records));
@@ -68,7 +71,8 @@ Result<void> RecordCursor::load(std::size_t order) {
   while (const auto record = mcap::nextRecord(in)) {
     if (record->opcode != mcap::Opcode::Message) continue;
     const auto m = mcap::decodeMessage(record->content);
-    if (!m || m->log_time < from_ || !wanted(m->channel_id)) continue;
+    if (!m || m->log_time < from_ || m->log_time > content_->index.end_time) continue;
+    if (!wanted(m->channel_id)) continue;
     loaded.entries.push_back({m->log_time, m->publish_time, m->sequence, m->channel_id, m->data});
   }
   std::stable_sort(loaded.entries.begin(), loaded.entries.end(),

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <set>
 
+#include <fmt/format.h>
+
 #include "common/record/mcap_decode.h"
 #include "common/record/record_content.h"
 
@@ -22,17 +24,25 @@ Result<RecordReader> RecordReader::open(const std::string& path) {
 const std::string& RecordReader::path() const { return content_->file->path(); }
 bool RecordReader::complete() const { return content_->index.complete; }
 std::uint64_t RecordReader::lostBytes() const { return content_->index.lost_bytes; }
+std::string RecordReader::defects() const {
+  std::string out;
+  if (!complete()) {
+    out = fmt::format("the recording was cut off; {} bytes at its end are lost", lostBytes());
+  }
+  if (const auto outliers = content_->index.outliers; outliers > 0) {
+    out += fmt::format("{}{} messages have a time far from all others and are left out",
+                       out.empty() ? "" : "; ", outliers);
+  }
+  return out;
+}
 bool RecordReader::empty() const { return content_->index.chunks.empty(); }
 
 Stamp RecordReader::start() const {
-  if (empty()) return {};
-  return stampFromNanoseconds(static_cast<std::int64_t>(content_->index.chunks.front().start_time));
+  return stampFromNanoseconds(static_cast<std::int64_t>(content_->index.start_time));
 }
 
 Stamp RecordReader::end() const {
-  std::uint64_t latest = 0;
-  for (const ChunkEntry& chunk : content_->index.chunks) latest = std::max(latest, chunk.end_time);
-  return stampFromNanoseconds(static_cast<std::int64_t>(latest));
+  return stampFromNanoseconds(static_cast<std::int64_t>(content_->index.end_time));
 }
 
 std::vector<RecordedTopic> RecordReader::topics() const {
@@ -117,15 +127,18 @@ std::vector<RecordedMessage> RecordReader::newestBefore(
       if (record->opcode != mcap::Opcode::Message) continue;
       const auto m = mcap::decodeMessage(record->content);
       if (!m || m->log_time > time || !missing.contains(m->channel_id)) continue;
+      if (m->log_time < content_->index.start_time || m->log_time > content_->index.end_time)
+        continue;
       const auto [known, inserted] = newest.try_emplace(m->channel_id, *m);
       if (!inserted && known->second.log_time <= m->log_time) known->second = *m;
     }
     for (const auto& [id, m] : newest) {
       missing.erase(id);
+      const auto bytes = std::make_shared<const std::string>(m.data);  // not the whole chunk
       found.push_back({id, content_->topicOf(id), content_->schemaOf(id), m.sequence,
                        stampFromNanoseconds(static_cast<std::int64_t>(m.log_time)),
-                       stampFromNanoseconds(static_cast<std::int64_t>(m.publish_time)), m.data,
-                       storage});
+                       stampFromNanoseconds(static_cast<std::int64_t>(m.publish_time)), *bytes,
+                       bytes});
     }
   }
   std::stable_sort(found.begin(), found.end(),

@@ -34,9 +34,11 @@ class RecordReader {
   /// False: cut off by a crash or still being written; what is whole can be read.
   [[nodiscard]] bool complete() const;
   [[nodiscard]] std::uint64_t lostBytes() const;  ///< behind the last whole record
-  [[nodiscard]] bool empty() const;               ///< no messages at all
-  [[nodiscard]] Stamp start() const;              ///< log time of the first message; 0 if empty
-  [[nodiscard]] Stamp end() const;                ///< of the last one
+  /// What is wrong with the file as a whole, for the log and the window; empty: nothing.
+  [[nodiscard]] std::string defects() const;
+  [[nodiscard]] bool empty() const;   ///< no messages at all
+  [[nodiscard]] Stamp start() const;  ///< log time of the first message; 0 if empty
+  [[nodiscard]] Stamp end() const;    ///< of the last one
   [[nodiscard]] std::vector<RecordedTopic> topics() const;
   [[nodiscard]] std::vector<std::string> attachments() const;
   /// The schema's bytes (FileDescriptorSet). Error: NotFound.

@@ -8,9 +8,9 @@
 namespace kiln {
 namespace {
 
-constexpr std::uint64_t kMaxDescription = 16u << 20;  // a schema or channel record
-constexpr std::uint64_t kMaxIndexRecord = 64u << 20;
+constexpr std::uint64_t kMaxIndexRecord = 32u << 20;
 constexpr std::uint64_t kChunkHead = 64;  // enough for a chunk's fields up to its records
+constexpr std::uint64_t kMessageHead = 22;
 constexpr std::uint64_t kAttachmentHead = 4096;
 constexpr std::uint64_t kLatestTime = std::numeric_limits<std::int64_t>::max();
 
@@ -25,9 +25,11 @@ class Scan {
         index_.complete = true;
         break;
       }
+      if (head->opcode != mcap::Opcode::Message) finishLoose();
       if (!take(*head, at)) break;
       at += mcap::kRecordHeadBytes + head->length;
     }
+    finishLoose();
     finishChunk(!index_.complete);
     if (!index_.complete) index_.lost_bytes = file_.size() - std::min(at, file_.size());
     return std::move(index_);
@@ -63,7 +65,7 @@ class Scan {
     switch (head.opcode) {
       case mcap::Opcode::Schema:
       case mcap::Opcode::Channel: {
-        const auto bytes = content(head, at, kMaxDescription);
+        const auto bytes = content(head, at, kMaxDescriptionBytes);
         return bytes && describe({head.opcode, *bytes});
       }
       case mcap::Opcode::Chunk:
@@ -75,19 +77,25 @@ class Scan {
       }
       case mcap::Opcode::Attachment:
         return takeAttachment(head, at);
+      case mcap::Opcode::Message:
+        return takeMessage(head, at);
       default:
-        return true;  // header, metadata, loose messages, what later versions may add
+        return true;  // header, metadata, what later versions may add
     }
   }
 
+  /// The first description of a channel or schema counts.
   bool describe(const mcap::Record& record) {
+    if (described_bytes_ + record.content.size() > kMaxDescriptionBytes) return true;
     if (record.opcode == mcap::Opcode::Schema) {
       auto schema = mcap::decodeSchema(record.content);
-      if (schema) index_.schemas[schema->id] = std::move(*schema);
+      if (schema && index_.schemas.try_emplace(schema->id, *schema).second)
+        described_bytes_ += record.content.size();
       return schema.has_value();
     }
     auto channel = mcap::decodeChannel(record.content);
-    if (channel) index_.channels[channel->id] = std::move(*channel);
+    if (channel && index_.channels.try_emplace(channel->id, *channel).second)
+      described_bytes_ += record.content.size();
     return channel.has_value();
   }
 
@@ -96,8 +104,14 @@ class Scan {
         file_.read(at + mcap::kRecordHeadBytes, std::min<std::uint64_t>(head.length, kChunkHead));
     if (!bytes) return false;
     mcap::ByteReader in(*bytes);
-    ChunkEntry entry{at, mcap::kRecordHeadBytes + head.length, in.u64(), in.u64(), {}};
-    if (!in.ok() || entry.start_time > entry.end_time || entry.end_time > kLatestTime) return false;
+    ChunkEntry entry{at, mcap::kRecordHeadBytes + head.length, in.u64(), in.u64(), {}, {}};
+    (void)in.u64();
+    (void)in.u32();
+    entry.compression = in.text();
+    if (!in.ok()) entry.compression.clear();  // reading it will say what is wrong
+    if (entry.start_time > entry.end_time || entry.end_time > kLatestTime)
+      entry.start_time = entry.end_time = latest_;
+    latest_ = entry.end_time;
     open_ = std::move(entry);
     return true;
   }
@@ -118,12 +132,41 @@ class Scan {
     const bool known = !cut_off && !open_->channels.empty() &&
                        std::all_of(open_->channels.begin(), open_->channels.end(),
                                    [&](auto id) { return index_.channels.contains(id); });
-    if (known || lookInto(*open_)) {
-      for (const auto& [channel, count] : pending_counts_) index_.message_counts[channel] += count;
-      index_.chunks.push_back(std::move(*open_));
+    // One that cannot be read stays, with its channels unknown: the cursor names it.
+    if (!known && !lookInto(*open_)) {
+      open_->channels.clear();
+      pending_counts_.clear();
     }
+    for (const auto& [channel, count] : pending_counts_) {
+      index_.message_counts[channel] += count;
+      open_->messages += count;
+    }
+    index_.chunks.push_back(std::move(*open_));
     open_.reset();
     pending_counts_.clear();
+  }
+
+  bool takeMessage(const Head& head, std::uint64_t at) {
+    const auto bytes = file_.read(at + mcap::kRecordHeadBytes, std::min(head.length, kMessageHead));
+    const auto message = bytes ? mcap::decodeMessage(*bytes) : std::nullopt;
+    if (!message || message->log_time > kLatestTime) return true;  // costs itself alone
+    const std::uint64_t size = mcap::kRecordHeadBytes + head.length;
+    if (loose_.messages > 0 && loose_.length + size > kMaxLooseBytes) finishLoose();
+    if (loose_.messages == 0) {
+      loose_ = ChunkEntry{at, 0, message->log_time, message->log_time, {}, {}};
+      loose_.loose = true;
+    }
+    loose_.length = at + size - loose_.offset;
+    loose_.start_time = std::min(loose_.start_time, message->log_time);
+    loose_.end_time = std::max(loose_.end_time, message->log_time);
+    ++loose_.messages;
+    ++index_.message_counts[message->channel_id];
+    return true;
+  }
+
+  void finishLoose() {
+    if (loose_.messages > 0) index_.chunks.push_back(std::move(loose_));
+    loose_ = {};
   }
 
   bool lookInto(ChunkEntry& entry) {
@@ -164,6 +207,9 @@ class Scan {
   const RandomFile& file_;
   RecordIndex index_;
   std::optional<ChunkEntry> open_;
+  ChunkEntry loose_;          ///< the run of messages outside of chunks, if it has any
+  std::uint64_t latest_ = 0;  ///< end of the last chunk with times that make sense
+  std::size_t described_bytes_ = 0;
   std::map<std::uint16_t, std::uint64_t> pending_counts_;
 };
 

@@ -1,5 +1,7 @@
 #include "common/record/run_topics.h"
 
+#include "common/record/printable.h"
+
 namespace kiln::run {
 
 std::string topicName(Topic topic) {
@@ -46,6 +48,37 @@ std::string_view schemaName(Topic topic) {
       return "foxglove.CompressedImage";
   }
   return "";
+}
+
+Result<RecordedMessage> requireMessages(const RecordReader& reader, std::string_view topic) {
+  auto cursor = reader.messages({std::string(topic)});
+  std::optional<Error> damage;
+  for (;;) {
+    auto message = cursor.next();
+    if (message && *message) return std::move(**message);
+    if (message) break;
+    if (!damage) damage = message.error();
+  }
+  if (damage) return tl::make_unexpected(*damage);
+  std::string others;
+  for (const RecordedTopic& has : reader.topics()) {
+    const std::string_view name = has.topic;
+    if (name.starts_with("/kiln/") || name == kLidarScan) {
+      const char* what = topic == kLidarScan ? "LiDAR scans" : "joints and wheels";
+      return makeError(ErrorCode::InvalidInput,
+                       "{}: no {} ({}) are in this recording; give a file that kiln-robotd "
+                       "--record wrote",
+                       reader.path(), what, topic);
+    }
+    if (others.size() < 100) others += (others.empty() ? "" : ", ") + printable(name);
+  }
+  if (others.empty())
+    return makeError(ErrorCode::InvalidInput, "{}: no messages are in this recording",
+                     reader.path());
+  return makeError(ErrorCode::InvalidInput,
+                   "{}: a recording of another robot (it has {}); give a file that kiln-robotd "
+                   "--record wrote",
+                   reader.path(), others);
 }
 
 }  // namespace kiln::run

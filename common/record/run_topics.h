@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "common/record/record_reader.h"
 #include "common/transport/topics.h"
 
 /// Topic names inside a Kiln recording.
@@ -29,5 +30,10 @@ inline constexpr std::string_view kRunAttachment = "run.json";       ///< versio
 [[nodiscard]] std::optional<Topic> publishedTopic(std::string_view name);
 /// Full name of the message that a topic carries in a recording: "kiln.v1.RobotStatus".
 [[nodiscard]] std::string_view schemaName(Topic topic);
+
+/// The first message of `topic` that can be read. Error: InvalidInput, with what is missing from
+/// the file: the topic, its messages, or that it is a recording of another robot.
+[[nodiscard]] Result<RecordedMessage> requireMessages(const RecordReader& reader,
+                                                      std::string_view topic);
 
 }  // namespace kiln::run

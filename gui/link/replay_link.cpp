@@ -67,11 +67,7 @@ Result<std::unique_ptr<ReplayLink>> ReplayLink::open(const std::string& path) {
   auto impl = std::make_unique<Impl>(std::move(*replay));
   impl->now.file = QFileInfo(QString::fromStdString(path)).fileName();
   impl->now.run = describe(impl->replay.info());
-  const RecordReader& reader = impl->replay.player().reader();
-  if (!reader.complete()) {
-    impl->now.problem =
-        tr("the recording was cut off; %1 bytes at its end are lost").arg(reader.lostBytes());
-  }
+  impl->now.problem = QString::fromStdString(impl->replay.player().reader().defects());
   return std::unique_ptr<ReplayLink>(new ReplayLink(std::move(impl)));
 }
 

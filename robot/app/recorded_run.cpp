@@ -98,18 +98,12 @@ struct RecordedRun::Impl {
 Result<std::unique_ptr<RecordedRun>> RecordedRun::open(const std::string& path, const Clock& wall) {
   auto reader = RecordReader::open(path);
   if (!reader) return tl::make_unexpected(reader.error());
-  auto devices = reader->messages({std::string(run::kDevices)});
-  const auto first = devices.next();
-  const auto sample = first && *first ? wire::decodeDeviceSample((*first)->data)
-                                      : makeError(ErrorCode::NotFound, "no device sample");
-  const auto scan = reader->messages({std::string(run::kLidarScan)}).peek();
-  if (!sample || !scan || !*scan) {
-    return makeError(
-        ErrorCode::InvalidInput,
-        "{}: no joints, wheels and scans of a robot are in this recording; give a file "
-        "that kiln-robotd --record wrote",
-        path);
-  }
+  const auto device = run::requireMessages(*reader, run::kDevices);
+  if (!device) return tl::make_unexpected(device.error());
+  const auto scan = run::requireMessages(*reader, run::kLidarScan);
+  if (!scan) return tl::make_unexpected(scan.error());
+  const auto sample = wire::decodeDeviceSample(device->data);
+  if (!sample) return tl::make_unexpected(sample.error());
   auto impl = std::make_unique<Impl>(std::move(*reader), wall);
   impl->take(*sample);
   impl->start_pose = sample->X_map_odom * sample->X_odom_base;

@@ -1,5 +1,7 @@
 #include "robot/app/runtime.h"
 
+#include "common/core/log.h"
+
 namespace kiln {
 
 Result<void> Runtime::open(const DeviceSources& sources, const std::string& version) {
@@ -22,6 +24,8 @@ Result<void> Runtime::open(const DeviceSources& sources, const std::string& vers
     auto opened = RecordedRun::open(sources.replay, steady_clock);
     if (!opened) return tl::make_unexpected(opened.error());
     run = std::move(*opened);
+    if (const std::string defects = run->player().reader().defects(); !defects.empty())
+      logger("replay")->warn("{}: {}", sources.replay, defects);
     manual_clock.advanceTo(run->player().start());
   }
   return recorded_.open(sources.lidar, sources.thermal, executor());

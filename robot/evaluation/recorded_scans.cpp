@@ -2,6 +2,7 @@
 
 #include <deque>
 
+#include "common/core/log.h"
 #include "common/record/foxglove.h"
 #include "common/record/record_reader.h"
 #include "common/record/run_topics.h"
@@ -94,12 +95,19 @@ Result<RecordedScanCount> forEachScan(const std::string& path, const RobotGeomet
                                       const std::function<Result<void>(RecordedScan)>& sink) {
   auto reader = RecordReader::open(path);
   if (!reader) return tl::make_unexpected(reader.error());
+  for (const auto topic : {run::kDevices, run::kLidarScan}) {
+    if (const auto has = run::requireMessages(*reader, topic); !has)
+      return tl::make_unexpected(has.error());
+  }
+  if (const std::string defects = reader->defects(); !defects.empty())
+    logger("record")->warn("{}: {}", path, defects);
   ScanPreparation preparation(robot);
   RecordCursor cursor =
       reader->messages({std::string(run::kLidarScan), std::string(run::kDevices)});
   while (true) {
     const auto message = cursor.next();
     if (!message) {
+      logger("record")->warn("{}", message.error().message);
       ++preparation.count().damaged;
       continue;
     }

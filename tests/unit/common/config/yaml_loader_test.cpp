@@ -36,11 +36,20 @@ steps:
   EXPECT_EQ(config.steps[1].tries, 1);
 }
 
-TEST(YamlLoader, AnEmptyFileKeepsEveryDefault) {
+TEST(YamlLoader, RefusesAFileThatSaysNothing) {
+  for (const char* text : {"", "\n", "# a comment\n", "---\n"}) {
+    SampleConfig config;
+    const auto loaded = loadText(text, config);
+    ASSERT_FALSE(loaded.has_value()) << text;
+    EXPECT_THAT(loaded.error().message, ::testing::HasSubstr("says nothing"));
+  }
+}
+
+TEST(YamlLoader, RefusesAKeyThatStandsTwice) {
   SampleConfig config;
-  EXPECT_TRUE(loadText("", config).has_value());
-  EXPECT_TRUE(loadText("# only a comment\n", config).has_value());
-  EXPECT_EQ(config.name, "Bob");
+  const auto loaded = loadText("name: a\nenabled: true\nname: b\n", config);
+  ASSERT_FALSE(loaded.has_value());
+  EXPECT_THAT(loaded.error().message, ::testing::HasSubstr(":3: key 'name' stands twice"));
 }
 
 struct BadText {

@@ -1,7 +1,11 @@
 // Files that a crash, a full disk or a bad sector has damaged.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
+#include "common/record/mcap_encode.h"
+#include "common/record/run_topics.h"
 #include "tests/fuzz/mutator.h"
+#include "tests/support/data_dir.h"
 #include "tests/unit/common/record/sample_recording.h"
 
 namespace kiln::test {
@@ -88,6 +92,17 @@ TEST(Recovery, OtherFilesAreRefusedInWords) {
   EXPECT_EQ(RecordReader::open(folder.file("absent")).error().code, ErrorCode::NotFound);
 }
 
+TEST(Recovery, FifosFoldersAndDevicesAreRefusedAtOnce) {
+  const RecordFolder folder;
+  ASSERT_EQ(::mkfifo(folder.file("fifo").c_str(), 0600), 0);
+  for (const std::string& path :
+       {folder.file("fifo"), folder.file("."), std::string("/dev/zero")}) {
+    const auto reader = RecordReader::open(path);
+    ASSERT_FALSE(reader) << path;
+    EXPECT_NE(reader.error().message.find("not a file"), std::string::npos) << reader.error();
+  }
+}
+
 TEST(Recovery, NoDamageCrashesTheReader) {
   const RecordFolder folder;
   writeSample(folder.file("a.mcap"), 3.0);
@@ -110,6 +125,78 @@ TEST(Recovery, NoDamageCrashesTheReader) {
   }
   EXPECT_GT(opened, 1000);
   EXPECT_GT(messages, 10000);
+}
+
+TEST(Recovery, MessagesOutsideOfChunksAreRead) {
+  const RecordFolder folder;
+  std::string file(mcap::kMagic);
+  mcap::append(file, mcap::Channel{1, 0, "/t", "raw", {}});
+  for (std::uint64_t i = 0; i < 200'000; ++i)  // 6.8 MB: several runs of 2 MiB
+    mcap::append(file, mcap::Message{1, 0, i * 1'000'000, i * 1'000'000, "abc"});
+  writeAll(folder.file("a.mcap"), file);
+  const auto reader = RecordReader::open(folder.file("a.mcap"));
+  ASSERT_TRUE(reader) << reader.error();
+  EXPECT_EQ(collect(reader->messages()).payloads.size(), 200'000u);
+  EXPECT_EQ(reader->end(), at(199.999));
+}
+
+TEST(Recovery, OneMessageOfAnotherTimeDoesNotStretchTheTimeLine) {
+  const RecordFolder folder;
+  auto writer = RecordWriter::create(folder.file("a.mcap"));
+  ASSERT_TRUE(writer) << writer.error();
+  const auto channel = (*writer)->addChannel("/t", {"test.T", "protobuf", "s"});
+  ASSERT_TRUE(channel);
+  for (int i = 0; i < 200; ++i)
+    ASSERT_TRUE((*writer)->write(*channel, at(i == 50 ? 0.0 : 5000 + 0.01 * i), at(1), "x"));
+  ASSERT_TRUE((*writer)->close());
+  const auto reader = RecordReader::open(folder.file("a.mcap"));
+  ASSERT_TRUE(reader) << reader.error();
+  EXPECT_EQ(reader->start(), at(5000));
+  EXPECT_EQ(collect(reader->messages()).payloads.size(), 199u);
+  EXPECT_NE(reader->defects().find("1 messages"), std::string::npos) << reader->defects();
+}
+
+TEST(Recovery, ChunksThatClaimMuchAreNamedAndCostTheirSizeInTheFile) {
+  const RecordFolder folder;
+  std::string file(mcap::kMagic);
+  mcap::append(file, mcap::Channel{1, 0, "/t", "raw", {}});
+  mcap::append(file, mcap::Chunk{1, 2, (32u << 20) + 1, 0, "lz4", "abc"});
+  writeAll(folder.file("a.mcap"), file);
+  const auto reader = RecordReader::open(folder.file("a.mcap"));
+  ASSERT_TRUE(reader) << reader.error();
+  auto cursor = reader->messages();
+  const auto message = cursor.next();
+  ASSERT_FALSE(message);
+  EXPECT_NE(message.error().message.find("over 32 MiB"), std::string::npos);
+}
+
+TEST(Recovery, UnreadCompressionIsRefusedByItsName) {
+  const RecordFolder folder;
+  std::string file(mcap::kMagic);
+  mcap::append(file, mcap::Chunk{1, 2, 3, 0, "brotli", "abc"});
+  writeAll(folder.file("a.mcap"), file);
+  const auto reader = RecordReader::open(folder.file("a.mcap"));
+  ASSERT_FALSE(reader);
+  EXPECT_NE(reader.error().message.find("compressed with brotli"), std::string::npos);
+}
+
+TEST(RecordingsOnDisk, HaveTheirOutcomes) {
+  const auto cases = testing::dataFile("../cases/mcap");
+  if (!cases) GTEST_SKIP() << "no cases here: set KILN_DATA_DIR";
+  for (const auto& entry : std::filesystem::directory_iterator(*cases)) {
+    const std::string name = entry.path().filename().string();
+    const auto reader = RecordReader::open(entry.path().string());
+    ASSERT_TRUE(reader) << reader.error();
+    const auto scan = run::requireMessages(*reader, run::kLidarScan);
+    const bool refused = name == "no_scans.mcap" || name == "another_robot.mcap";
+    EXPECT_EQ(scan.has_value(), !refused) << name;
+    if (!refused) {
+      EXPECT_LT(toSeconds(reader->end() - reader->start()), 3.0) << name;
+    }
+    std::printf("%-26s %zu messages, %s %s\n", name.c_str(),
+                collect(reader->messages()).payloads.size(), reader->defects().c_str(),
+                scan ? "" : scan.error().message.c_str());
+  }
 }
 
 }  // namespace
