@@ -1,6 +1,6 @@
-#include "robot/missions/catalog.h"
-
 #include <fmt/ranges.h>
+
+#include "robot/missions/catalog.h"
 
 namespace kiln {
 

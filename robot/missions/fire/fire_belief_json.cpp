@@ -1,8 +1,8 @@
-#include "robot/missions/fire/fire_belief.h"
-
 #include <cmath>
 
 #include <nlohmann/json.hpp>
+
+#include "robot/missions/fire/fire_belief.h"
 
 namespace kiln {
 namespace {

@@ -60,9 +60,7 @@ Transition ToyWait::execute() {
   return transit<ToyDrive>().because("waited");
 }
 
-void ToyDrive::enter() {
-  context().drive.start({{context().config.distance_m, 0.0, 0.0}}, now());
-}
+void ToyDrive::enter() { context().drive.start({{context().config.distance_m, 0.0, 0.0}}, now()); }
 
 Transition ToyDrive::execute() {
   const SkillStatus drive = context().drive.poll(now());

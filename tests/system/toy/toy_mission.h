@@ -6,8 +6,8 @@
 
 namespace kiln {
 
-/// The smallest mission that does something: waits, drives ahead, is done. Everything that a mission
-/// must bring stands in this folder; resources/docs/extending.md tells it step by step.
+/// The smallest mission that does something: waits, drives ahead, is done. Everything that a
+/// mission must bring stands in this folder; resources/docs/extending.md tells it step by step.
 struct ToyConfig {
   double wait_s = 0.5;
   double distance_m = 1.0;  ///< straight ahead of the start

@@ -6,9 +6,9 @@
 #include <google/protobuf/descriptor.pb.h>
 #include <gtest/gtest.h>
 
-#include "common/wire/jpeg_size.h"
 #include "common/record/run_topics.h"
 #include "common/record/schema.h"
+#include "common/wire/jpeg_size.h"
 #include "common/wire/recording.h"
 
 namespace kiln {
