@@ -60,7 +60,7 @@ class KilledMission : public testing::TestWithParam<const char*> {
     std::ifstream in(scratch_.file("state") + "/fire.checkpoint");
     const json checkpoint = json::parse(in, nullptr, false);
     if (checkpoint.is_discarded()) return {};
-    return checkpoint.at("fsm").at("state").get<std::string>();
+    return checkpoint.at("body").at("fsm").at("state").get<std::string>();
   }
   ScratchFolder scratch_{"resume"};
 };

@@ -172,7 +172,9 @@ TEST(OperatorStart, AMissingTransformIsARowWithWhatToDoAndRefusesTheMissionByNam
   const auto told = (*person)->waitFor("the row", seconds(15), [&](const View& v) {
     const Check* lidar = row(v, "LiDAR");
     const Check* transforms = row(v, "Transforms");
-    return lidar && lidar->ok && transforms && transforms->detail == "flange -> lidar is missing";
+    const Check* perception = row(v, "Perception");  // its first cloud takes a moment longer
+    return lidar && lidar->ok && perception && perception->ok && transforms &&
+           transforms->detail == "flange -> lidar is missing";
   });
   ASSERT_TRUE(told.has_value()) << told.error();
   const View view = (*person)->view();

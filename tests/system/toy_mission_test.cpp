@@ -36,7 +36,7 @@ TEST(ToyMission, RunsFromItsFolderAndItsLineInTheCatalogue) {
   const Programs programs;
   const auto run = programs.run({});
   ASSERT_TRUE(run.has_value()) << run.error();
-  const auto report = nlohmann::json::parse(run->robot_json);
+  const auto report = nlohmann::json::parse(run->robot_json)["robot"];
   EXPECT_TRUE(run->success) << report.dump(1).substr(0, 2000);
   EXPECT_EQ(report["mission"], "toy");
   ASSERT_EQ(report["states"].size(), 3U);
@@ -49,7 +49,7 @@ TEST(ToyMission, ItsSectionOfTheConfigurationIsObeyed) {
   const Programs programs;
   const auto run = programs.run({"--set=toy.distance_m=0.6"});
   ASSERT_TRUE(run.has_value()) << run.error();
-  EXPECT_NEAR(nlohmann::json::parse(run->robot_json)["toy_x_m"].get<double>(), 0.6, 0.1);
+  EXPECT_NEAR(nlohmann::json::parse(run->robot_json)["robot"]["toy_x_m"].get<double>(), 0.6, 0.1);
 }
 
 }  // namespace
