@@ -1,7 +1,9 @@
 #include "tests/support/attacks.h"
 
 #include <chrono>
+#include <condition_variable>
 #include <fstream>
+#include <mutex>
 #include <random>
 #include <sstream>
 
@@ -11,8 +13,10 @@ namespace kiln::test {
 namespace {
 
 void rest(const std::stop_token& stop, int ms) {
-  for (int i = 0; i < ms && !stop.stop_requested(); i += 10)
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  std::mutex mutex;
+  std::unique_lock lock(mutex);
+  std::condition_variable_any stopped;
+  (void)stopped.wait_for(lock, stop, std::chrono::milliseconds(ms), [] { return false; });
 }
 
 /// Runs `body` on a connection that has shaken hands, until it breaks; then on a new one.

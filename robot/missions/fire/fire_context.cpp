@@ -14,11 +14,10 @@ constexpr double kBaseMoved_rad = 0.09;
 constexpr double kAtWorkPose_m = 0.5;  // near enough to reach the place with the arm
 }  // namespace
 
-FireContext::FireContext(const FireDevices& fire_devices, const FireConfig& fire_config,
-                         const SprayCalibration& spray_calibration)
+FireContext::FireContext(const FireDevices& fire_devices, const FireConfig& fire_config)
     : devices(fire_devices),
       config(fire_config),
-      calibration(spray_calibration),
+      calibration(fire_devices.spray_calibration),
       belief(initialFireBelief(fire_devices.arena)),
       heat(fire_devices.heat),
       look(fire_config.search.motion, fire_devices.robot, fire_devices.arm),

@@ -5,46 +5,24 @@
 #include <optional>
 #include <string>
 
-#include "common/core/clock.h"
-#include "common/robot_model/robot_geometry.h"
-#include "robot/control/pump_controller.h"
-#include "robot/hal/arm.h"
+#include "robot/missions/common/mission_parts.h"
 #include "robot/missions/common/stowed_drive.h"
 #include "robot/missions/fire/fire_belief.h"
 #include "robot/missions/fire/fire_config.h"
-#include "robot/scene/arena_map.h"
 #include "robot/skills/look/heat_watch.h"
 #include "robot/skills/look/look_around.h"
-#include "robot/skills/motion.h"
-#include "robot/skills/surroundings.h"
-#include "robot/world_model/robot_belief.h"
 
 namespace kiln {
 
 /// What the fire mission works with; all outlive it.
-struct FireDevices {
-  const Clock& clock;
-  ArenaMap& arena;  ///< what everybody plans with; a place that is nudged moves in it
-  const RobotGeometry& robot;
-  const RobotBelief& belief;
-  BaseMotion& base;       ///< DriveTo
-  ArmMotion& arm;         ///< MoveArm
-  const Arm& arm_device;  ///< joints and safety mode
-  PumpController& pumps;
-  HeatSweep& heat;              ///< HeatLocalizer behind an adapter
-  std::function<Pose2()> pose;  ///< newest X_map_base
-  Surroundings& surroundings;   ///< the live cloud
-  /// Where the flange was in map at a stamp of the last seconds; nullopt: not known.
-  std::function<std::optional<Eigen::Isometry3d>(Stamp)> X_map_flange;
-  std::function<void(ThermalImagePtr)> publish_thermal;
-  std::function<void(HeatDetections)> publish_heat;
+struct FireDevices : MissionParts {
+  HeatSweep& heat;  ///< HeatLocalizer behind an adapter
 };
 
 /// What the states of the fire mission share. Confined to the mission thread.
 class FireContext {
  public:
-  FireContext(const FireDevices& devices, const FireConfig& fire_config,
-              const SprayCalibration& spray_calibration);
+  FireContext(const FireDevices& devices, const FireConfig& fire_config);
 
   const FireDevices devices;
   const FireConfig config;

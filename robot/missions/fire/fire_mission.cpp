@@ -33,10 +33,10 @@ double scoreEstimate(const FireBelief& belief) {
 }  // namespace
 
 struct FireMission::Impl {
-  Impl(const FireDevices& devices, const FireConfig& config, const SprayCalibration& calibration,
-       const std::string& mission_uuid, std::unique_ptr<HeatTask> heat_task)
+  Impl(const FireDevices& devices, const FireConfig& config, const std::string& mission_uuid,
+       std::unique_ptr<HeatTask> heat_task)
       : heat(std::move(heat_task)),
-        context(devices, config, calibration),
+        context(devices, config),
         machine(makeFireMachine(context, mission_uuid)) {}
 
   /// Litres go to the place that is being worked on, whoever runs the pumps.
@@ -76,9 +76,8 @@ struct FireMission::Impl {
 };
 
 FireMission::FireMission(const FireDevices& devices, const FireConfig& config,
-                         const SprayCalibration& calibration, const std::string& mission_uuid,
-                         std::unique_ptr<HeatTask> heat)
-    : impl_(std::make_unique<Impl>(devices, config, calibration, mission_uuid, std::move(heat))) {}
+                         const std::string& mission_uuid, std::unique_ptr<HeatTask> heat)
+    : impl_(std::make_unique<Impl>(devices, config, mission_uuid, std::move(heat))) {}
 FireMission::~FireMission() = default;
 
 Machine& FireMission::machine() { return *impl_->machine; }

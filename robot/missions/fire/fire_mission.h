@@ -15,8 +15,7 @@ namespace kiln {
 class FireMission final : public Mission {
  public:
   /// @param heat  nullptr: detections are handed to onDetections() by the caller.
-  FireMission(const FireDevices& devices, const FireConfig& config,
-              const SprayCalibration& calibration, const std::string& mission_uuid,
+  FireMission(const FireDevices& devices, const FireConfig& config, const std::string& mission_uuid,
               std::unique_ptr<HeatTask> heat = nullptr);
   ~FireMission() override;
 

@@ -24,12 +24,8 @@ Result<std::unique_ptr<Mission>> makeFire(const MissionConfig& config,
                      "arena '{}' has no fire_places: there is nothing to look for",
                      parts.arena.name);
   auto heat = std::make_unique<HeatTask>(section.heat, parts.executor);
-  const FireDevices devices{
-      parts.clock,        parts.arena,        parts.robot,           parts.belief,      parts.base,
-      parts.arm,          parts.arm_device,   parts.pumps,           heat->sweep(),     parts.pose,
-      parts.surroundings, parts.X_map_flange, parts.publish_thermal, parts.publish_heat};
-  return std::make_unique<FireMission>(devices, section.mission, parts.spray_calibration,
-                                       mission_uuid, std::move(heat));
+  const FireDevices devices{parts, heat->sweep()};
+  return std::make_unique<FireMission>(devices, section.mission, mission_uuid, std::move(heat));
 }
 
 }  // namespace

@@ -151,7 +151,7 @@ TEST(ZmtpServer, AFloodIsReadAtItsSharesPaceAndTheOthersDoNotNotice) {
     ASSERT_TRUE(answers(good, "word"));
     worst_s = std::max(worst_s, secondsBetween(sent, monotonicNow()));
     ++answered;
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    ASSERT_FALSE(good.receive(std::chrono::milliseconds(20))) << "one word, one answer";
   }
   EXPECT_GT(answered, 10);
   EXPECT_LT(worst_s, 0.3);

@@ -1,7 +1,7 @@
 #include "robot/app/health_watch.h"
 
 #include <atomic>
-#include <thread>
+#include <semaphore>
 
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ struct Stuck : State<Kiln, Stuck, To<Open>> {
   static constexpr const char* kDoc = "";
   static constexpr const char* kConsequence = "";
   Transition execute() override {
-    while (!context().released.load()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    context().released.wait(false);
     return transit<Open>();
   }
 };
@@ -39,12 +39,16 @@ TEST(HealthWatch, TellsTheStationsOfAStateThatDoesNotReturn) {
   MachineOf<Kiln, Stuck, Open> machine(
       {.mission = "kiln", .watchdog_limit = std::chrono::milliseconds(50)}, clock, kiln);
   Mutex mutex;
+  std::binary_semaphore told{0};
   std::vector<RobotStatus> sent;
   HealthWatch health([&machine] { return machine.blocked(); },
                      [&](RobotStatus status) {
                        const std::lock_guard lock(mutex);
                        sent.push_back(std::move(status));
                        kiln.released.store(true);
+                       kiln.released.notify_all();
+                       (void)told.try_acquire();
+                       told.release();
                      });
   RobotStatus before;
   before.robot_name = "Bob";
@@ -56,10 +60,11 @@ TEST(HealthWatch, TellsTheStationsOfAStateThatDoesNotReturn) {
   executor.every(std::chrono::milliseconds(10), "health", kPriorityMission,
                  [&](Stamp t) { health.tick(t); });
   executor.start();
-  for (int i = 0; i < 500 && !kiln.released.load(); ++i)
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  const bool heard = told.try_acquire_for(std::chrono::seconds(5));
+  kiln.released.store(true);  // a failing test ends too
+  kiln.released.notify_all();
   executor.stop();
-  ASSERT_FALSE(sent.empty());
+  ASSERT_TRUE(heard) << "within five seconds";
   EXPECT_EQ(sent[0].robot_name, "Bob");
   ASSERT_EQ(sent[0].alarms.size(), 1U);
   EXPECT_EQ(sent[0].alarms[0].id, "fsm.blocked");

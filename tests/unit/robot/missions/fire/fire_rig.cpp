@@ -87,21 +87,12 @@ void FireRig::build() {
   mission.reset();
   pumps = std::make_unique<PumpController>(PumpController::Config{}, pumps_device, stop);
   belief = {};
-  const FireDevices devices{clock,
-                            arena,
-                            robot,
-                            belief,
-                            base,
-                            arm,
-                            arm_device,
-                            *pumps,
-                            sweep,
-                            [this] { return base.pose(); },
-                            surroundings,
-                            [](Stamp) { return std::nullopt; },
-                            [](const ThermalImagePtr&) {},
-                            [](const HeatDetections&) {}};
-  mission = std::make_unique<FireMission>(devices, config, SprayCalibration{}, "test-uuid");
+  const FireDevices devices{
+      {clock, executor_, arena, robot, belief, base, arm, arm_device, *pumps, spray_calibration_,
+       [this] { return base.pose(); }, surroundings, [](Stamp) { return std::nullopt; },
+       [](const ThermalImagePtr&) {}, [](const HeatDetections&) {}},
+      sweep};
+  mission = std::make_unique<FireMission>(devices, config, "test-uuid");
   host = std::make_unique<MissionHost>(*mission, belief, stop, clock,
                                        CheckpointKeeper::Config{options_.checkpoint_path});
 }

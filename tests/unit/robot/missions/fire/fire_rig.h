@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "common/core/manual_executor.h"
 #include "robot/missions/common/mission_host.h"
 #include "robot/missions/fire/fire_mission.h"
 #include "tests/unit/robot/missions/fire/fake_motion.h"
@@ -109,6 +110,8 @@ class FireRig {
   [[nodiscard]] bool plateInView(const Eigen::Isometry3d& X_map_thermal) const;
 
   Options options_;
+  ManualExecutor executor_{clock};  ///< nothing is posted: detections are handed over
+  SprayCalibration spray_calibration_;
   Stamp plate_lit_;
   Stamp next_image_;
   std::uint64_t image_seq_ = 0;
