@@ -4,6 +4,9 @@
 #include <cmath>
 
 namespace kiln {
+namespace {
+constexpr std::size_t kKeptAnswers = 256;
+}  // namespace
 
 template <class Change>
 void ScriptedOperator::update(Change change) {
@@ -17,7 +20,13 @@ void ScriptedOperator::update(Change change) {
 OperatorSession::Callbacks ScriptedOperator::callbacks() {
   OperatorSession::Callbacks on;
   on.on_link = [this](const LinkReport& link) { update([&](View& v) { v.link = link; }); };
-  on.on_command = [this](const CommandUpdate& u) { update([&](View& v) { v.last_command = u; }); };
+  on.on_command = [this](const CommandUpdate& u) {
+    update([&](View& v) {
+      v.last_command = u;
+      v.answers[u.nonce] = u;
+      if (v.answers.size() > kKeptAnswers) v.answers.erase(v.answers.begin());
+    });
+  };
   on.on_stop = [this](const StopReport& stop) { update([&](View& v) { v.stop = stop; }); };
   on.on_lease = [this](const LeaseView& lease) { update([&](View& v) { v.lease = lease; }); };
   on.on_status = [this](const RobotStatus& s, const Arrival&) {
@@ -63,12 +72,12 @@ Result<void> ScriptedOperator::command(CommandBody body) {
   const std::string name(commandName(body));
   const std::uint64_t nonce = session_->send(std::move(body));
   const auto answered = [&](const View& v) {
-    return v.last_command && v.last_command->nonce == nonce &&
-           v.last_command->state != CommandState::Sent;
+    const auto found = v.answers.find(nonce);
+    return found != v.answers.end() && found->second.state != CommandState::Sent;
   };
   if (auto waited = waitFor("the answer to " + name, std::chrono::seconds(3), answered); !waited)
     return waited;
-  const CommandUpdate update = *view().last_command;
+  const CommandUpdate update = view().answers.at(nonce);
   if (update.state == CommandState::Accepted || update.state == CommandState::Done) return {};
   return makeError(ErrorCode::Refused, "{} {}: {}", name, toString(update.state), update.reason);
 }

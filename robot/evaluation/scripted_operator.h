@@ -2,6 +2,7 @@
 
 #include <condition_variable>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -22,6 +23,9 @@ class ScriptedOperator {
     std::optional<HeatDetections> heat;
     std::optional<Scene> scene;
     std::optional<CommandUpdate> last_command;
+    /// Newest word on each of the last commands, by nonce: an answer may be followed at once by
+    /// another's, as those to a held setpoint are.
+    std::map<std::uint64_t, CommandUpdate> answers;
     LeaseView lease;
     StopReport stop;
     LinkReport link;

@@ -105,7 +105,8 @@ TEST_F(OperatorCommands, TeleopPausesTheMissionAndOnlyThenObeysTheStick) {
            v.last_command->code == "wrong_mode";
   });
   EXPECT_TRUE(refused.has_value()) << refused.error();
-  ASSERT_TRUE(person_->command(SetMode{Mode::Teleop}).has_value());
+  const auto mode = person_->command(SetMode{Mode::Teleop});
+  ASSERT_TRUE(mode.has_value()) << mode.error();
   ASSERT_TRUE(waitForWord(StatusWord::Teleop));
   ASSERT_TRUE(waitForSpeed(false));
   const double from_x = person_->view().status->X_map_base.x_m;
