@@ -10,14 +10,14 @@ constexpr int kZeros = 3;
 std::optional<std::size_t> slotOf(const CommandBody& body) {
   if (std::holds_alternative<JogBase>(body)) return 0;
   if (std::holds_alternative<JogArm>(body)) return 1;
-  if (std::holds_alternative<HoldPump>(body)) return 2;
+  if (std::holds_alternative<HoldActuator>(body)) return 2;
   if (std::holds_alternative<HoldMacro>(body)) return 3;
   return std::nullopt;
 }
 
 CommandBody zeroOf(const CommandBody& body) {
   if (const auto* jog = std::get_if<JogArm>(&body)) return JogArm{jog->frame, Vector6d::Zero()};
-  if (std::holds_alternative<HoldPump>(body)) return HoldPump{};
+  if (const auto* actuator = std::get_if<HoldActuator>(&body)) return HoldActuator{actuator->name};
   if (std::holds_alternative<HoldMacro>(body)) return HoldMacro{};
   return JogBase{};
 }

@@ -10,7 +10,6 @@
 #include "common/client/stop_caller.h"
 #include "common/core/clock.h"
 #include "common/core/error.h"
-#include "common/model/fire.h"
 #include "common/model/fsm.h"
 #include "common/model/link.h"
 #include "common/model/localization.h"
@@ -113,6 +112,7 @@ class OperatorSession {
     std::function<void(const RobotStatus&, const Arrival&)> on_status;
     std::function<void(const FsmInfo&, const Arrival&)> on_fsm_info;
     std::function<void(const FsmStatus&, const Arrival&)> on_fsm_status;
+    std::function<void(const MissionInfo&, const Arrival&)> on_mission_info;
     std::function<void(const Scene&, const Arrival&)> on_scene;
     std::function<void(const LocalizationStatus&, const Arrival&)> on_localization;
     std::function<void(const Trajectory&, const Arrival&)> on_trajectory;
@@ -121,7 +121,7 @@ class OperatorSession {
     std::function<void(const LogBatch&, const Arrival&)> on_log;
     std::function<void(PointCloudPtr, const Arrival&)> on_cloud;
     std::function<void(ThermalImagePtr, const Arrival&)> on_thermal;
-    std::function<void(const HeatDetections&, const Arrival&)> on_heat;
+    std::function<void(const MissionDetail&, const Arrival&)> on_mission_stream;
     std::function<void(JpegImagePtr, const Arrival&)> on_jpeg;  ///< frame says which camera
     /// A message that could not be decoded: counted, named, dropped.
     std::function<void(const Error&)> on_bad_message;
@@ -141,7 +141,7 @@ class OperatorSession {
   /// for later.
   std::uint64_t send(CommandBody body);
 
-  /// Hold-to-run: streams this setpoint (JogBase, JogArm, HoldPump, HoldMacro) at 25 Hz. One a
+  /// Hold-to-run: streams this setpoint (JogBase, JogArm, HoldActuator, HoldMacro) at 25 Hz. One a
   /// kind; a new value replaces the old. The caller repeats it while the key is held (any rate
   /// above 5 Hz); a caller that hangs or forgets is a release after hold_ttl_s.
   /// @param press  from press(), taken when the control was pressed. A press that has ended, here

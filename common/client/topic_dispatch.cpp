@@ -2,6 +2,7 @@
 
 #include "common/wire/fsm.h"
 #include "common/wire/localization.h"
+#include "common/wire/mission.h"
 #include "common/wire/sensor.h"
 #include "common/wire/telemetry.h"
 #include "common/wire/world.h"
@@ -53,8 +54,10 @@ Result<void> dispatch(Topic topic, std::string_view payload,
       return hand(wire::decodeMacros(payload), callbacks.on_macros, arrival);
     case Topic::Log:
       return hand(wire::decodeLogBatch(payload), callbacks.on_log, arrival);
-    case Topic::Heat:
-      return hand(wire::decodeHeat(payload), callbacks.on_heat, arrival);
+    case Topic::MissionInfo:
+      return hand(wire::decodeMissionInfo(payload), callbacks.on_mission_info, arrival);
+    case Topic::MissionStream:
+      return hand(wire::decodeMissionDetail(payload), callbacks.on_mission_stream, arrival);
     case Topic::Cloud:
       return callbacks.on_cloud ? share(wire::decodeCloud(payload), callbacks.on_cloud, arrival)
                                 : Result<void>{};

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "common/core/stamp.h"
 #include "common/geom/pose.h"
@@ -54,15 +55,15 @@ struct SetRecording {
 struct SetPose {
   Pose2 X_map_base;
 };
-/// Moves a configured fire place: (dx, dy) in map, yaw about the plate's vertical. Adds up.
-struct NudgePlace {
-  std::string place;
-  Pose2 by;
-};
-/// The operator has looked and takes the responsibility: the mission goes on although a check
-/// objects. `subject` names the check as the robot did in its reason: "place 1".
-struct ContinueDespite {
-  std::string subject;
+/// A command that the running mission has described (MissionInfo::commands).
+struct MissionCommand {
+  struct Argument {
+    std::string name;
+    double value = 0.0;
+  };
+  std::string name;
+  std::string target;  ///< what it is given to: "place 1"
+  std::vector<Argument> arguments;
 };
 
 // --- hold-to-run setpoints: streamed at 25 Hz, never acknowledged when fine, refused at 300 ms of
@@ -75,9 +76,11 @@ struct JogArm {
   JogFrame frame = JogFrame::Base;
   Vector6d velocity = Vector6d::Zero();
 };  ///< rad/s, or m/s + rad/s
-struct HoldPump {
-  double left = 0.0, right = 0.0;
-};  ///< duty 0..1
+/// Runs something of the robot (MissionInfo::actuators) while held; 0 is the release.
+struct HoldActuator {
+  std::string name;
+  double value = 0.0;
+};
 /// Runs while held; restart starts from the first step; an empty name is the release.
 struct HoldMacro {
   std::string name;
@@ -88,8 +91,8 @@ struct ReleaseAll {};  ///< explicit zero: sent three times on release
 using CommandBody =
     std::variant<AcquireLease, ReleaseLease, StartMission, Pause, Resume, ChangeState, SetMode,
                  ClearStop, ReleaseProtectiveStop, ResetRobot, SetSpeedScale, CancelMacro,
-                 AcknowledgeAlarm, SetRecording, SetPose, NudgePlace, ContinueDespite, JogBase,
-                 JogArm, HoldPump, HoldMacro, ReleaseAll>;
+                 AcknowledgeAlarm, SetRecording, SetPose, MissionCommand, JogBase, JogArm,
+                 HoldActuator, HoldMacro, ReleaseAll>;
 
 struct Command {
   std::string client_id;          ///< random per process
@@ -103,7 +106,8 @@ struct Command {
   std::uint64_t press = 0;
   CommandBody body;
 };
-[[nodiscard]] std::string_view commandName(const CommandBody& body);  ///< "jog_base", ...
+/// "jog_base", ...; of a MissionCommand its own name.
+[[nodiscard]] std::string_view commandName(const CommandBody& body);
 [[nodiscard]] bool isSetpoint(const CommandBody& body);
 
 enum class AckOutcome : std::uint8_t { Accepted, Refused, Done, Failed, Cancelled };

@@ -1,5 +1,4 @@
 #include "common/model/command.h"
-#include "common/model/fire.h"
 #include "common/model/localization.h"
 #include "common/model/sensor.h"
 #include "common/model/status.h"
@@ -22,28 +21,6 @@ void PointCloud::push(float px, float py, float pz, std::uint8_t i, std::uint8_t
   intensity.push_back(i);
   ring.push_back(r);
   time_offset_s.push_back(dt_s);
-}
-
-std::string_view toString(HeatRejection rejection) {
-  switch (rejection) {
-    case HeatRejection::None:
-      return "none";
-    case HeatRejection::TooCool:
-      return "too cool";
-    case HeatRejection::Reflection:
-      return "reflection";
-    case HeatRejection::Flame:
-      return "flame";
-    case HeatRejection::Frozen:
-      return "frozen";
-    case HeatRejection::TooSmall:
-      return "too small";
-    case HeatRejection::OutsideGeofence:
-      return "outside geofence";
-    case HeatRejection::NotLinear:
-      return "not linear";
-  }
-  return "unknown";
 }
 
 std::string_view toString(StatusWord word) {
@@ -147,11 +124,10 @@ struct NameOf {
   std::string_view operator()(const AcknowledgeAlarm&) const { return "acknowledge_alarm"; }
   std::string_view operator()(const SetRecording&) const { return "set_recording"; }
   std::string_view operator()(const SetPose&) const { return "set_pose"; }
-  std::string_view operator()(const NudgePlace&) const { return "nudge_place"; }
-  std::string_view operator()(const ContinueDespite&) const { return "continue_despite"; }
+  std::string_view operator()(const MissionCommand& b) const { return b.name; }
   std::string_view operator()(const JogBase&) const { return "jog_base"; }
   std::string_view operator()(const JogArm&) const { return "jog_arm"; }
-  std::string_view operator()(const HoldPump&) const { return "hold_pump"; }
+  std::string_view operator()(const HoldActuator&) const { return "hold_actuator"; }
   std::string_view operator()(const HoldMacro&) const { return "hold_macro"; }
   std::string_view operator()(const ReleaseAll&) const { return "release_all"; }
 };
@@ -161,7 +137,7 @@ std::string_view commandName(const CommandBody& body) { return std::visit(NameOf
 
 bool isSetpoint(const CommandBody& body) {
   return std::holds_alternative<JogBase>(body) || std::holds_alternative<JogArm>(body) ||
-         std::holds_alternative<HoldPump>(body) || std::holds_alternative<HoldMacro>(body) ||
+         std::holds_alternative<HoldActuator>(body) || std::holds_alternative<HoldMacro>(body) ||
          std::holds_alternative<ReleaseAll>(body);
 }
 

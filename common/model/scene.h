@@ -1,14 +1,15 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <Eigen/Geometry>
 
-#include "common/model/fire.h"
-#include "common/model/place_check.h"
-#include "common/model/status.h"
+#include "common/core/stamp.h"
+#include "common/geom/pose.h"
+#include "common/model/mission.h"
 
 namespace kiln {
 
@@ -20,16 +21,56 @@ struct SceneBox {
   std::uint32_t rgb = 0x808080;  ///< 0xRRGGBB
 };
 
+/// Planned path, for the scene.
+struct PathInfo {
+  Stamp stamp;
+  std::vector<Pose2> waypoints_map;
+  int next = 0;
+};
+
+/// What something in the scene means; the station chooses colour and line.
+enum class ItemStyle : std::uint8_t {
+  Normal,
+  Configured,  ///< as the operator's files say: dashed
+  Sensed,      ///< as the sensors say
+  Planned,     ///< will be, or would be
+  Suspected,   ///< to be looked at
+  Done,
+  Target,
+  Active,  ///< happens now
+  Caution,
+  Intent  ///< what an operator is about to do; drawn by stations alone
+};
+
+/// Something that a mission draws. Frame: map, metres.
+struct SceneItem {
+  enum class Shape : std::uint8_t {
+    Polyline,  ///< `points`
+    Box,  ///< its twelve edges, seen through everything: X_map_item is its centre, `size` whole
+    Estimate,  ///< a point that was estimated: X_map_item's origin, `covariance` as an ellipsoid
+    Text       ///< label alone, at X_map_item's origin
+  };
+  std::string id;     ///< of its kind in the layer
+  std::string layer;  ///< LayerSpec::id
+  Shape shape = Shape::Polyline;
+  ItemStyle style = ItemStyle::Normal;
+  Eigen::Isometry3d X_map_item = Eigen::Isometry3d::Identity();
+  Eigen::Vector3d size = Eigen::Vector3d::Zero();
+  std::vector<Eigen::Vector3d> points{};
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< m^2; of an Estimate
+  double width_px = 1.0;                                 ///< of lines
+  std::string label{};   ///< "place 1 · 0.86 m"; drawn at X_map_item's origin
+  std::string detail{};  ///< a second line
+};
+
 /// Everything the scene overlays on the live robot; mirrors kiln.v1.Scene. Sent when it changes and
 /// every 2 s.
 struct Scene {
   Stamp stamp;
-  std::vector<FireEstimate> fires;
-  std::vector<FirePlaceInfo> places;
   PathInfo planned;
-  JetPreview jet;
   std::vector<SceneBox> arena;
-  std::vector<PlaceCheck> place_checks;  ///< newest of each place that was looked at
+  std::vector<SceneItem> items;
+  MissionDetail detail;  ///< what the items were made of, for the mission's panels
 };
 
 }  // namespace kiln

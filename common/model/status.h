@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/model/command.h"
+#include "common/model/mission.h"
 #include "common/model/sensor.h"
 
 namespace kiln {
@@ -82,8 +83,8 @@ struct MacroInfo {
   std::string name;  ///< "spray fire 1"
   std::string doc;
   double duration_s = 0.0;
-  double water_l = 0.0;
   std::string start_condition;  ///< "start within 5 cm"
+  std::string uses;             ///< what it uses up: "est. 2.1 l"; empty: nothing
 };
 struct MacroStatus {
   std::string running;  ///< empty = none
@@ -91,12 +92,6 @@ struct MacroStatus {
   std::string step_text;
   double progress = 0.0;    ///< 0..1
   std::string last_result;  ///< "done", "cancelled: released", "failed: ..."
-};
-struct WaterStatus {
-  std::array<double, 2> duty{};
-  std::array<double, 2> current_a{};
-  std::array<double, 2> tank_l_est{};  ///< estimated litres left, left and right
-  double sprayed_l_est = 0.0;          ///< whole mission
 };
 /// What the robot's recorder does.
 struct RecordingStatus {
@@ -130,46 +125,21 @@ struct RobotStatus {
   double pose_age_s = 0.0;
   Twist2 twist;  ///< measured, base frame
   ArmState arm;
-  Eigen::Isometry3d X_base_nozzle = Eigen::Isometry3d::Identity();
   std::array<double, 4> wheel_steer_rad{};
   double battery_v = 0.0;
   double battery_a = 0.0;
-  WaterStatus water;
   MacroStatus macro;
   RecordingStatus recording;
   double speed_scale = 0.35;
   double mission_elapsed_s = 0.0;
   double mission_limit_s = 900.0;
   int resets = 0;
-  double score_est = 0.0;
   std::vector<Alarm> alarms;
   std::vector<DropCount> drops;
   std::vector<std::string> operators;  ///< names of connected stations
   MissionPhase phase = MissionPhase::Idle;
   std::vector<MissionHold> holds;  ///< of a mission that is Held
-};
-
-/// Planned path, for the scene.
-struct PathInfo {
-  Stamp stamp;
-  std::vector<Pose2> waypoints_map;
-  int next = 0;
-};
-
-/// Configured fire place, for the scene.
-struct FirePlaceInfo {
-  std::string name;
-  Eigen::Vector3d p_map = Eigen::Vector3d::Zero();  ///< expected plate centre
-  double yaw_rad = 0.0;                             ///< direction in which the opening looks
-  bool visited = false;
-  Pose2 nudge{};  ///< what the operator has moved it by so far; contained in p_map and yaw_rad
-};
-
-/// Predicted jet for the scene: points in map, metres.
-struct JetPreview {
-  Stamp stamp;
-  std::vector<Eigen::Vector3d> points_map;
-  bool spraying = false;
+  std::vector<Figure> figures;     ///< of the mission, by MissionInfo::figures
 };
 
 struct LogLine {
@@ -195,6 +165,6 @@ struct HelloReply {
   std::string mission_uuid;
   Environment environment = Environment::Sim;
 };
-inline constexpr std::uint32_t kProtocolVersion = 2;
+inline constexpr std::uint32_t kProtocolVersion = 3;
 
 }  // namespace kiln

@@ -26,7 +26,8 @@ struct RunInfo {
 ///   auto replay = RunReplay::open(path, wall_clock);
 ///   replay->player().play();
 ///   each 10 ms: replay->poll([&](Topic topic, std::string_view payload, Stamp published) { ... });
-/// Stamps inside are robot time; player().clock() is the robot's clock of that moment.
+/// A recording of an older protocol is handed over as messages of today. Stamps inside are robot
+/// time; player().clock() is the robot's clock of that moment.
 /// Thread-compatible.
 class RunReplay {
  public:
@@ -44,8 +45,11 @@ class RunReplay {
   [[nodiscard]] Result<std::size_t> poll(const Sink& sink, std::size_t limit = 500);
 
  private:
-  explicit RunReplay(std::unique_ptr<Player> player) : player_(std::move(player)) {}
+  RunReplay(std::unique_ptr<Player> player, bool protocol2)
+      : player_(std::move(player)), protocol2_(protocol2) {}
+  [[nodiscard]] Result<void> handOver(const RecordedMessage& message, const Sink& sink) const;
   std::unique_ptr<Player> player_;
+  bool protocol2_;  ///< recorded before missions told of themselves
 };
 
 }  // namespace kiln

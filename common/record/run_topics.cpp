@@ -18,36 +18,9 @@ std::optional<Topic> publishedTopic(std::string_view name) {
 }
 
 std::string_view schemaName(Topic topic) {
-  switch (topic) {
-    case Topic::RobotStatus:
-      return "kiln.v1.RobotStatus";
-    case Topic::FsmStatus:
-      return "kiln.v1.FsmStatus";
-    case Topic::FsmInfo:
-      return "kiln.v1.FsmInfo";
-    case Topic::Scene:
-      return "kiln.v1.Scene";
-    case Topic::Macros:
-      return "kiln.v1.MacroList";
-    case Topic::Log:
-      return "kiln.v1.LogBatch";
-    case Topic::Cloud:
-      return "kiln.v1.Cloud";
-    case Topic::Thermal:
-      return "kiln.v1.ThermalFrame";
-    case Topic::Heat:
-      return "kiln.v1.HeatDetections";
-    case Topic::Localization:
-      return "kiln.v1.LocalizationStatus";
-    case Topic::Trajectory:
-      return "kiln.v1.Trajectory";
-    case Topic::MapLayer:
-      return "kiln.v1.MapLayer";
-    case Topic::HeadCamera:
-    case Topic::OperatorCamera:
-      return "foxglove.CompressedImage";
-  }
-  return "";
+  if (topic == Topic::HeadCamera || topic == Topic::OperatorCamera)
+    return "foxglove.CompressedImage";
+  return topicInfo(topic).schema;
 }
 
 Result<RecordedMessage> requireMessages(const RecordReader& reader, std::string_view topic) {

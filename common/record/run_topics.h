@@ -21,6 +21,9 @@ inline constexpr std::string_view kDevices = "/kiln/devices";    ///< kiln.v1.De
 inline constexpr std::string_view kCommands = "/kiln/commands";  ///< kiln.v1.ToRobot
 inline constexpr std::string_view kAcks = "/kiln/acks";          ///< kiln.v1.ToStation
 
+/// Only in recordings up to protocol 2: kiln.fire.v1.HeatDetections, kiln.v1 then.
+inline constexpr std::string_view kProtocol2Detections = "/kiln/heat";
+
 inline constexpr std::string_view kConfigAttachment = "robot.yaml";  ///< effective configuration
 inline constexpr std::string_view kRunAttachment = "run.json";       ///< version, mission, times
 

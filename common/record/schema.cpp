@@ -11,9 +11,11 @@
 #include "foxglove/PointCloud.pb.h"
 #include "foxglove/PoseInFrame.pb.h"
 #include "foxglove/RawImage.pb.h"
+#include "kiln/fire/v1/fire.pb.h"
 #include "kiln/v1/command.pb.h"
 #include "kiln/v1/fsm.pb.h"
 #include "kiln/v1/localization.pb.h"
+#include "kiln/v1/mission.pb.h"
 #include "kiln/v1/recording.pb.h"
 #include "kiln/v1/sensor.pb.h"
 #include "kiln/v1/telemetry.pb.h"
@@ -40,7 +42,8 @@ void linkDescriptors() {
         ::foxglove::PoseInFrame::descriptor(), ::foxglove::RawImage::descriptor(),
         v1::Command::descriptor(), v1::FsmInfo::descriptor(), v1::DeviceSample::descriptor(),
         v1::Cloud::descriptor(), v1::MapLayer::descriptor(), v1::RobotStatus::descriptor(),
-        v1::Scene::descriptor()}) {
+        v1::Scene::descriptor(), v1::MissionInfo::descriptor(),
+        ::kiln::fire::v1::FireSite::descriptor()}) {
     (void)descriptor->full_name();
   }
 }

@@ -12,6 +12,7 @@ enum class Topic : std::uint8_t {
   RobotStatus,
   FsmStatus,
   FsmInfo,
+  MissionInfo,
   Localization,
   Scene,
   Trajectory,
@@ -19,12 +20,12 @@ enum class Topic : std::uint8_t {
   Log,
   Cloud,
   Thermal,
-  Heat,
+  MissionStream,  ///< what the mission's perception says of each picture or cloud
   HeadCamera,
   OperatorCamera,
   MapLayer,
 };
-inline constexpr std::size_t kTopicCount = 14;
+inline constexpr std::size_t kTopicCount = 15;
 
 /// Which PUB socket carries a topic, so that a cloud never delays a status.
 enum class Lane : std::uint8_t { Status, Streams };
@@ -32,7 +33,8 @@ enum class Lane : std::uint8_t { Status, Streams };
 /// Quality of service of one topic.
 struct TopicInfo {
   Topic topic;
-  std::string_view name;  ///< on the wire
+  std::string_view name;    ///< on the wire
+  std::string_view schema;  ///< full name of its Protobuf message
   Lane lane;
   std::size_t queue;   ///< messages waiting for the link thread; the oldest is dropped and counted
   bool latched;        ///< the newest is kept: sent again to each new subscriber and every repeat_s

@@ -33,21 +33,24 @@ struct BodyWriter {
   void operator()(const AcknowledgeAlarm& b) const { out.set_acknowledge_alarm(validUtf8(b.id)); }
   void operator()(const SetRecording& b) const { out.set_set_recording(b.on); }
   void operator()(const SetPose& b) const { toProto(b.X_map_base, *out.mutable_set_pose()); }
-  void operator()(const NudgePlace& b) const {
-    out.mutable_nudge_place()->set_place(validUtf8(b.place));
-    toProto(b.by, *out.mutable_nudge_place()->mutable_by());
-  }
-  void operator()(const ContinueDespite& b) const {
-    out.set_continue_despite(validUtf8(b.subject));
+  void operator()(const MissionCommand& b) const {
+    v1::MissionCommand& command = *out.mutable_mission_command();
+    command.set_name(validUtf8(b.name));
+    command.set_target(validUtf8(b.target));
+    for (const MissionCommand::Argument& argument : b.arguments) {
+      v1::Argument& row = *command.add_arguments();
+      row.set_name(validUtf8(argument.name));
+      row.set_value(argument.value);
+    }
   }
   void operator()(const JogBase& b) const { toProto(b.twist, *out.mutable_jog_base()); }
   void operator()(const JogArm& b) const {
     out.mutable_jog_arm()->set_frame(static_cast<std::uint32_t>(b.frame));
     for (int i = 0; i < 6; ++i) out.mutable_jog_arm()->add_velocity(b.velocity[i]);
   }
-  void operator()(const HoldPump& b) const {
-    out.mutable_hold_pump()->set_left(b.left);
-    out.mutable_hold_pump()->set_right(b.right);
+  void operator()(const HoldActuator& b) const {
+    out.mutable_hold_actuator()->set_name(validUtf8(b.name));
+    out.mutable_hold_actuator()->set_value(b.value);
   }
   void operator()(const HoldMacro& b) const {
     out.mutable_hold_macro()->set_name(validUtf8(b.name));
@@ -63,6 +66,17 @@ Result<CommandBody> jogArmFromProto(const v1::JogArm& in) {
   if (auto ok = copyFixed(in.velocity(), jog.velocity, "arm jog"); !ok)
     return tl::make_unexpected(ok.error());
   return jog;
+}
+
+Result<CommandBody> missionCommandFromProto(const v1::MissionCommand& in) {
+  constexpr int kMostArguments = 32;
+  if (in.arguments_size() > kMostArguments)
+    return makeError(ErrorCode::InvalidInput, "command '{}' has {} arguments, at most {} are due",
+                     printableName(in.name()), in.arguments_size(), kMostArguments);
+  MissionCommand command{printableName(in.name()), printableName(in.target()), {}};
+  for (const v1::Argument& row : in.arguments())
+    command.arguments.push_back({printableName(row.name()), row.value()});
+  return command;
 }
 
 Result<CommandBody> setModeFromProto(std::uint32_t number) {
@@ -108,16 +122,14 @@ Result<CommandBody> bodyFromProto(const v1::Command& in) {
       return SetRecording{in.set_recording()};
     case v1::Command::kSetPose:
       return SetPose{fromProto(in.set_pose())};
-    case v1::Command::kNudgePlace:
-      return NudgePlace{printableName(in.nudge_place().place()), fromProto(in.nudge_place().by())};
-    case v1::Command::kContinueDespite:
-      return ContinueDespite{printableName(in.continue_despite())};
+    case v1::Command::kMissionCommand:
+      return missionCommandFromProto(in.mission_command());
     case v1::Command::kJogBase:
       return JogBase{fromProto(in.jog_base())};
     case v1::Command::kJogArm:
       return jogArmFromProto(in.jog_arm());
-    case v1::Command::kHoldPump:
-      return HoldPump{in.hold_pump().left(), in.hold_pump().right()};
+    case v1::Command::kHoldActuator:
+      return HoldActuator{printableName(in.hold_actuator().name()), in.hold_actuator().value()};
     case v1::Command::kHoldMacro:
       return HoldMacro{printableName(in.hold_macro().name()), in.hold_macro().restart()};
     case v1::Command::kReleaseAll:

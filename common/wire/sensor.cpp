@@ -16,7 +16,6 @@ constexpr std::size_t kMaxStreamBytes = 16u << 20;
 constexpr std::size_t kMaxFrameName = 64;
 constexpr std::uint32_t kMaxThermalSide = 1024;
 constexpr std::uint32_t kMaxColourSide = 8192;
-constexpr int kMaxBlobs = 1000;
 
 Result<void> checkImageSize(std::uint32_t width, std::uint32_t height, std::uint32_t limit,
                             const char* what) {
@@ -25,38 +24,6 @@ Result<void> checkImageSize(std::uint32_t width, std::uint32_t height, std::uint
                      what, width, height, limit);
   }
   return {};
-}
-
-void toProto(const HeatBlob& blob, v1::HeatBlob& out) {
-  out.set_u(blob.u);
-  out.set_v(blob.v);
-  out.set_u_min(blob.u_min);
-  out.set_v_min(blob.v_min);
-  out.set_u_max(blob.u_max);
-  out.set_v_max(blob.v_max);
-  out.set_peak_k(blob.peak_k);
-  out.set_background_k(blob.background_k);
-  out.set_half_max_area_px(blob.half_max_area_px);
-  out.set_rejection(static_cast<std::uint32_t>(blob.rejection));
-  out.set_reason(validUtf8(blob.reason));
-}
-
-Result<HeatBlob> fromProto(const v1::HeatBlob& in) {
-  const auto rejection = toEnum(in.rejection(), HeatRejection::NotLinear, "heat rejection");
-  if (!rejection) return tl::make_unexpected(rejection.error());
-  HeatBlob blob;
-  blob.u = in.u();
-  blob.v = in.v();
-  blob.u_min = in.u_min();
-  blob.v_min = in.v_min();
-  blob.u_max = in.u_max();
-  blob.v_max = in.v_max();
-  blob.peak_k = in.peak_k();
-  blob.background_k = in.background_k();
-  blob.half_max_area_px = in.half_max_area_px();
-  blob.rejection = *rejection;
-  blob.reason = in.reason();
-  return blob;
 }
 
 }  // namespace
@@ -178,42 +145,6 @@ Result<JpegImage> decodeJpeg(std::string_view bytes) {
   image.height = static_cast<int>(in->height());
   image.jpeg.assign(in->jpeg().begin(), in->jpeg().end());
   return image;
-}
-
-std::string encode(const HeatDetections& detections) {
-  v1::HeatDetections out;
-  out.set_stamp_ns(toNanoseconds(detections.stamp));
-  out.set_image_seq(detections.image_seq);
-  out.set_usable(detections.usable);
-  out.set_refusal(validUtf8(detections.refusal));
-  out.set_threshold_k(detections.threshold_k);
-  out.set_max_k(detections.max_k);
-  for (const HeatBlob& blob : detections.blobs) toProto(blob, *out.add_blobs());
-  out.set_cost_ms(detections.cost_ms);
-  return serialise(out);
-}
-
-Result<HeatDetections> decodeHeat(std::string_view bytes) {
-  const auto in = parse<v1::HeatDetections>(bytes, kMaxStreamBytes, "heat detections");
-  if (!in) return tl::make_unexpected(in.error());
-  if (in->blobs_size() > kMaxBlobs) {
-    return makeError(ErrorCode::InvalidInput, "heat detections: {} blobs are more than {}; dropped",
-                     in->blobs_size(), kMaxBlobs);
-  }
-  HeatDetections detections;
-  detections.stamp = stampFromNanoseconds(in->stamp_ns());
-  detections.image_seq = in->image_seq();
-  detections.usable = in->usable();
-  detections.refusal = in->refusal();
-  detections.threshold_k = in->threshold_k();
-  detections.max_k = in->max_k();
-  detections.cost_ms = in->cost_ms();
-  for (const v1::HeatBlob& blob : in->blobs()) {
-    auto value = fromProto(blob);
-    if (!value) return tl::make_unexpected(value.error());
-    detections.blobs.push_back(std::move(*value));
-  }
-  return detections;
 }
 
 }  // namespace kiln::wire

@@ -4,7 +4,6 @@
 #include <string_view>
 
 #include "common/core/error.h"
-#include "common/model/fire.h"
 #include "common/model/sensor.h"
 
 /// model <-> sensor.proto, as bytes of one message. Decoders take anything and answer corrupt input
@@ -16,11 +15,9 @@ namespace kiln::wire {
 [[nodiscard]] std::string encode(const ThermalImage& image);
 /// JPEG bytes go through untouched.
 [[nodiscard]] std::string encode(const JpegImage& image);
-[[nodiscard]] std::string encode(const HeatDetections& detections);
 
 [[nodiscard]] Result<PointCloud> decodeCloud(std::string_view bytes);
 [[nodiscard]] Result<ThermalImage> decodeThermal(std::string_view bytes);
 [[nodiscard]] Result<JpegImage> decodeJpeg(std::string_view bytes);
-[[nodiscard]] Result<HeatDetections> decodeHeat(std::string_view bytes);
 
 }  // namespace kiln::wire

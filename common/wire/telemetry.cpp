@@ -2,6 +2,7 @@
 
 #include "common/wire/arm_state.h"
 #include "common/wire/geometry.h"
+#include "common/wire/mission_fields.h"
 #include "common/wire/proto_message.h"
 #include "kiln/v1/telemetry.pb.h"
 
@@ -45,26 +46,6 @@ LeaseStatus fromProto(const v1::LeaseStatus& in) {
   return {in.holder_client(),       in.holder_name(),         in.epoch(),
           in.expires_in_s(),        in.requested_by_client(), in.requested_by_name(),
           in.request_expires_in_s()};
-}
-
-void toProto(const WaterStatus& water, v1::WaterStatus& out) {
-  for (const double value : water.duty) out.add_duty(value);
-  for (const double value : water.current_a) out.add_current_a(value);
-  for (const double value : water.tank_l_est) out.add_tank_l_est(value);
-  out.set_sprayed_l_est(water.sprayed_l_est);
-}
-
-Result<WaterStatus> fromProto(const v1::WaterStatus& in) {
-  WaterStatus water;
-  if (auto ok = copyFixed(in.duty(), water.duty, "pump duty"); !ok)
-    return tl::make_unexpected(ok.error());
-  if (auto ok = copyFixed(in.current_a(), water.current_a, "pump current"); !ok) {
-    return tl::make_unexpected(ok.error());
-  }
-  if (auto ok = copyFixed(in.tank_l_est(), water.tank_l_est, "tanks"); !ok)
-    return tl::make_unexpected(ok.error());
-  water.sprayed_l_est = in.sprayed_l_est();
-  return water;
 }
 
 void toProto(const MacroStatus& macro, v1::MacroStatus& out) {
@@ -141,6 +122,7 @@ void listsToProto(const RobotStatus& status, v1::RobotStatus& out) {
     row.set_reason(static_cast<std::uint32_t>(hold.reason));
     row.set_text(validUtf8(hold.text));
   }
+  for (const Figure& figure : status.figures) toProto(figure, *out.add_figures());
 }
 
 Result<void> listsFromProto(const v1::RobotStatus& in, RobotStatus& status) {
@@ -159,6 +141,10 @@ Result<void> listsFromProto(const v1::RobotStatus& in, RobotStatus& status) {
     if (!reason) return tl::make_unexpected(reason.error());
     status.holds.push_back({*reason, row.text()});
   }
+  if (in.figures_size() > kMaxFigures)
+    return makeError(ErrorCode::InvalidInput, "robot status: {} figures are more than {}; dropped",
+                     in.figures_size(), kMaxFigures);
+  for (const v1::Figure& row : in.figures()) status.figures.push_back(fromProto(row));
   return {};
 }
 
@@ -175,19 +161,6 @@ Result<void> enumsFromProto(const v1::RobotStatus& in, RobotStatus& status) {
   status.environment = *environment;
   status.mode = *mode;
   status.word = *word;
-  return {};
-}
-
-Result<void> partsFromProto(const v1::RobotStatus& in, RobotStatus& status) {
-  auto arm = fromProto(in.arm());
-  if (!arm) return tl::make_unexpected(arm.error());
-  status.arm = *arm;
-  auto X_base_nozzle = fromProto(in.x_base_nozzle(), "nozzle pose");
-  if (!X_base_nozzle) return tl::make_unexpected(X_base_nozzle.error());
-  status.X_base_nozzle = *X_base_nozzle;
-  auto water = fromProto(in.water());
-  if (!water) return tl::make_unexpected(water.error());
-  status.water = *water;
   return {};
 }
 
@@ -210,17 +183,14 @@ std::string encode(const RobotStatus& status) {
   out.set_pose_age_s(status.pose_age_s);
   toProto(status.twist, *out.mutable_twist());
   toProto(status.arm, *out.mutable_arm());
-  toProto(status.X_base_nozzle, *out.mutable_x_base_nozzle());
   out.set_battery_v(status.battery_v);
   out.set_battery_a(status.battery_a);
-  toProto(status.water, *out.mutable_water());
   toProto(status.macro, *out.mutable_macro());
   toProto(status.recording, *out.mutable_recording());
   out.set_speed_scale(status.speed_scale);
   out.set_mission_elapsed_s(status.mission_elapsed_s);
   out.set_mission_limit_s(status.mission_limit_s);
   out.set_resets(status.resets);
-  out.set_score_est(status.score_est);
   listsToProto(status, out);
   return serialise(out);
 }
@@ -230,7 +200,9 @@ Result<RobotStatus> decodeRobotStatus(std::string_view bytes) {
   if (!in) return tl::make_unexpected(in.error());
   RobotStatus status;
   if (auto ok = enumsFromProto(*in, status); !ok) return tl::make_unexpected(ok.error());
-  if (auto ok = partsFromProto(*in, status); !ok) return tl::make_unexpected(ok.error());
+  auto arm = fromProto(in->arm());
+  if (!arm) return tl::make_unexpected(arm.error());
+  status.arm = *arm;
   if (auto ok = listsFromProto(*in, status); !ok) return tl::make_unexpected(ok.error());
   status.stamp = stampFromNanoseconds(in->stamp_ns());
   status.seq = in->seq();
@@ -250,7 +222,6 @@ Result<RobotStatus> decodeRobotStatus(std::string_view bytes) {
   status.mission_elapsed_s = in->mission_elapsed_s();
   status.mission_limit_s = in->mission_limit_s();
   status.resets = in->resets();
-  status.score_est = in->score_est();
   return status;
 }
 
@@ -261,8 +232,8 @@ std::string encode(const std::vector<MacroInfo>& macros) {
     row.set_name(macro.name);
     row.set_doc(macro.doc);
     row.set_duration_s(macro.duration_s);
-    row.set_water_l(macro.water_l);
-    row.set_start_condition(macro.start_condition);
+    row.set_start_condition(validUtf8(macro.start_condition));
+    row.set_uses(validUtf8(macro.uses));
   }
   return serialise(out);
 }
@@ -272,8 +243,7 @@ Result<std::vector<MacroInfo>> decodeMacros(std::string_view bytes) {
   if (!in) return tl::make_unexpected(in.error());
   std::vector<MacroInfo> macros;
   for (const v1::MacroInfo& row : in->macros()) {
-    macros.push_back(
-        {row.name(), row.doc(), row.duration_s(), row.water_l(), row.start_condition()});
+    macros.push_back({row.name(), row.doc(), row.duration_s(), row.start_condition(), row.uses()});
   }
   return macros;
 }

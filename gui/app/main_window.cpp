@@ -7,6 +7,7 @@
 #include <QPainter>
 #include <algorithm>
 
+#include "gui/app/mission_panels.h"
 #include "gui/views/alarm_strip/alarm_strip.h"
 #include "gui/views/camera/camera_tile.h"
 #include "gui/views/fsm_graph/fsm_tile.h"
@@ -17,7 +18,6 @@
 #include "gui/views/scene3d/scene_tile.h"
 #include "gui/views/state_card/state_card.h"
 #include "gui/views/teleop/teleop_tile.h"
-#include "gui/views/thermal/thermal_tile.h"
 #include "gui/views/timeline/timeline_view.h"
 #include "gui/views/top_bar/top_bar.h"
 #include "gui/widgets/act_button.h"
@@ -62,6 +62,7 @@ MainWindow::MainWindow(const Ui& ui, StationModels& models, const Options& optio
   }
   column->addWidget(makeBottom());
   column->addWidget(alarms_);
+  new MissionPanels({ui_, models_, hold_}, {image_row_, scene_, macros_}, *options.panels, this);
   connect(alarms_, &AlarmStrip::logRequested, this, [this] { showLog(log_tile_->isHidden()); });
   connect(&models_, &StationModels::aged, this, &MainWindow::refreshFrame);
   connect(&models_.status, &Model::changed, this, &MainWindow::refreshFrame);
@@ -85,11 +86,10 @@ QBoxLayout* MainWindow::makeMiddle(const Options& options) {
   scene_ = new SceneTile(ui_, models_, options.geometry, options.open_gl);
   centre->addWidget(scene_, 1);
   images_ = new QWidget;
-  auto* images = new QHBoxLayout(images_);
-  images->setContentsMargins(0, 0, 0, 0);
-  images->setSpacing(kGap_px);
-  images->addWidget(new ThermalTile(ui_, models_), 6);
-  images->addWidget(new CameraTile(ui_, models_), 5);
+  image_row_ = new QHBoxLayout(images_);
+  image_row_->setContentsMargins(0, 0, 0, 0);
+  image_row_->setSpacing(kGap_px);
+  image_row_->addWidget(new CameraTile(ui_, models_), 5);
   centre->addWidget(images_);
   middle->addLayout(centre, 1);
   middle->addWidget(makeRight());
@@ -106,7 +106,7 @@ QWidget* MainWindow::makeRight() {
   tabs->setContentsMargins(0, 0, 0, 0);
   tabs->setSpacing(kGap_px);
   teleop_tab_ = new ActButton(ui_, tr("Take over"));
-  macros_tab_ = new ActButton(ui_, tr("Macros and water"));
+  macros_tab_ = new ActButton(ui_, tr("Macros"));
   for (ActButton* tab : {teleop_tab_, macros_tab_}) {
     tab->setFixedHeight(kTab_px);
     tabs->addWidget(tab, 1);
@@ -256,7 +256,7 @@ bool MainWindow::handleKey(int key, bool typing) {
   if (key == Qt::Key_Escape) {
     jump_.cancel();
     scene_->posePlacer().cancel();
-    scene_->placeNudge().cancel();
+    for (SceneCard* card : scene_->cards()) card->cancel();
     fsm_->endSearch();
     return true;
   }

@@ -3,12 +3,14 @@
 #include <QWidget>
 
 #include "common/robot_model/robot_geometry.h"
+#include "gui/app/panel_catalog.h"
 #include "gui/models/forced_jump.h"
 #include "gui/models/station_models.h"
 #include "gui/views/teleop/hold_to_run.h"
 #include "gui/widgets/tile.h"
 
 class QBoxLayout;
+class QHBoxLayout;
 class QStackedLayout;
 
 namespace kiln::gui {
@@ -34,6 +36,7 @@ class MainWindow : public QWidget {
     RobotGeometry geometry;
     bool open_gl = true;
     ReplayLink* replay = nullptr;  ///< the models' link, if it is a recording
+    const std::vector<PanelKind>* panels = &panelCatalog();
   };
   MainWindow(const Ui& ui, StationModels& models, const Options& options);
   ~MainWindow() override;
@@ -45,6 +48,7 @@ class MainWindow : public QWidget {
   [[nodiscard]] ReplayBar* replayBar() const { return replay_bar_; }  ///< null without a replay
   [[nodiscard]] AlarmStrip* alarmStrip() const { return alarms_; }
   [[nodiscard]] ForcedJump& jump() { return jump_; }
+  [[nodiscard]] MacrosTile* macrosTile() const { return macros_; }
   void showLog(bool shown);
 
  protected:
@@ -72,6 +76,7 @@ class MainWindow : public QWidget {
   StateCard* state_;
   SceneTile* scene_ = nullptr;
   QWidget* images_ = nullptr;
+  QHBoxLayout* image_row_ = nullptr;
   QWidget* right_ = nullptr;
   QWidget* tabs_ = nullptr;  ///< of a low window, where take-over and macros share one place
   ActButton *teleop_tab_ = nullptr, *macros_tab_ = nullptr;

@@ -6,7 +6,7 @@
 namespace kiln::ctl {
 namespace {
 constexpr double kOptionalTopic_s = 1.0;  // a robot without mission publishes no state
-constexpr double kLatched_s = 2.5;        // latched topics are repeated every 2 s
+
 constexpr double kStop_s = 5.0;
 constexpr double kForever_s = 1e9;
 }  // namespace
@@ -60,10 +60,64 @@ int listMacros(Console& console) {
     return console.fail(kRefused, "the robot has no macros; look into its resources/macros");
   for (const MacroInfo& macro : macros) {
     console.print(toJson(macro),
-                  fmt::format("{:<16} {:>4.0f} s  {:>4.2f} l (est.)  {}; start: {}", macro.name,
-                              macro.duration_s, macro.water_l, macro.doc, macro.start_condition));
+                  fmt::format("{:<16} {:>4.0f} s  {:<12} {}; start: {}", macro.name,
+                              macro.duration_s, macro.uses, macro.doc, macro.start_condition));
   }
   return kDone;
+}
+
+int showMission(Console& console) {
+  if (!console.connect()) return kNoLink;
+  const auto info = console.mission();
+  if (!info) return console.fail(kRefused, "the robot does not tell of its mission");
+  const RobotStatus status = console.status();
+  std::string text = fmt::format("{}: {}\n", info->mission, info->title);
+  for (const FigureSpec& spec : info->figures) {
+    const Figure* figure = findFigure(status.figures, spec.id);
+    text += fmt::format("  figure    {:<20} {:<12} {}\n", spec.id,
+                        figure ? figureText(spec, figure->value) : "–",
+                        spec.doc.empty() ? spec.label : spec.doc);
+  }
+  for (const CommandSpec& spec : info->commands) {
+    text += fmt::format("  command   {:<20} {}{}\n", spec.name,
+                        spec.target.empty() ? "" : "to a " + spec.target + ": ", spec.consequence);
+    for (const ArgumentSpec& row : spec.arguments)
+      text += fmt::format("            {:>20} {} to {} {}: {}\n", row.name, row.low, row.high,
+                          row.unit, row.doc);
+  }
+  for (const ActuatorSpec& row : info->actuators)
+    text += fmt::format("  actuator  {:<20} {} to {}: {}\n", row.name, row.low, row.high, row.text);
+  text.pop_back();
+  console.print(toJson(*info), text);
+  return kDone;
+}
+
+int missionCommand(Console& console, const std::string& name, const std::string& target,
+                   const std::vector<std::string>& arguments) {
+  if (!console.connect()) return kNoLink;
+  const auto info = console.mission();
+  const CommandSpec* spec = info ? info->command(name) : nullptr;
+  if (!spec)
+    return console.fail(kRefused, fmt::format("the mission knows no command '{}'; see: kilnctl "
+                                              "mission",
+                                              name));
+  MissionCommand command{name, target, {}};
+  for (const ArgumentSpec& row : spec->arguments) command.arguments.push_back({row.name, 0.0});
+  for (const std::string& text : arguments) {
+    const std::size_t at = text.find('=');
+    const auto given = std::find_if(
+        command.arguments.begin(), command.arguments.end(),
+        [&](const MissionCommand::Argument& a) { return a.name == text.substr(0, at); });
+    char* end = nullptr;
+    const char* number = at == std::string::npos ? "" : text.c_str() + at + 1;
+    const double value = std::strtod(number, &end);
+    if (given == command.arguments.end() || end == number || *end != '\0')
+      return console.fail(kRefused, fmt::format("'{}' is no argument of {} with a number; see: "
+                                                "kilnctl mission",
+                                                text, name));
+    given->value = value;
+  }
+  return commandWithControl(console, std::move(command));
 }
 
 int listAlarms(Console& console) {

@@ -13,6 +13,11 @@ namespace kiln::ctl {
 [[nodiscard]] int watch(Console& console, double period_s, double seconds);
 [[nodiscard]] int listMacros(Console& console);
 [[nodiscard]] int listAlarms(Console& console);
+[[nodiscard]] int showMission(Console& console);
+/// A command that the mission has described. @param arguments  "x=0.1"; those left out are 0.
+[[nodiscard]] int missionCommand(Console& console, const std::string& name,
+                                 const std::string& target,
+                                 const std::vector<std::string>& arguments);
 /// Takes control, sends, waits for the answer, gives control back.
 [[nodiscard]] int showLocalization(Console& console);
 [[nodiscard]] int commandWithControl(Console& console, CommandBody body);

@@ -9,8 +9,9 @@
 namespace kiln::ctl {
 namespace {
 
-constexpr double kPoll_s = 0.02;      // signals set a flag only, so every wait looks at it
-constexpr double kAnswer_s = 3.0;     // beyond the session's own 1 s, which makes a command UNKNOWN
+constexpr double kPoll_s = 0.02;   // signals set a flag only, so every wait looks at it
+constexpr double kAnswer_s = 3.0;  // beyond the session's own 1 s, which makes a command UNKNOWN
+
 constexpr double kTakeOver_s = 12.0;  // the holder is asked for 10 s
 
 bool ended(const CommandUpdate& update) {
@@ -36,6 +37,9 @@ OperatorSession::Callbacks Console::callbacks() {
   callbacks.on_macros = [this, keep](const std::vector<MacroInfo>& v, const Arrival&) {
     keep(macros_, v);
   };
+  callbacks.on_mission_info = [this, keep](const MissionInfo& v, const Arrival&) {
+    keep(mission_, v);
+  };
   callbacks.on_link = [this](const LinkReport&) { changed_.notify_all(); };
   callbacks.on_lease = [this](const LeaseView&) { changed_.notify_all(); };
   callbacks.on_stop = [this](const StopReport&) { changed_.notify_all(); };
@@ -54,7 +58,8 @@ bool Console::open() {
   config.operator_name = options_.name;
   config.program_version = KILN_VERSION;
   config.role = options_.role;
-  config.topics = {Topic::RobotStatus, Topic::FsmStatus, Topic::Macros, Topic::Localization};
+  config.topics = {Topic::RobotStatus, Topic::FsmStatus, Topic::MissionInfo, Topic::Macros,
+                   Topic::Localization};
   auto session = OperatorSession::open(std::move(config), callbacks(), clock_);
   if (!session) {
     fail(kNoLink, session.error().message);
@@ -185,6 +190,12 @@ std::optional<LocalizationStatus> Console::localization() const {
 std::vector<MacroInfo> Console::macros() const {
   const std::lock_guard lock(mutex_);
   return macros_.value_or(std::vector<MacroInfo>{});
+}
+
+std::optional<MissionInfo> Console::mission() {
+  static_cast<void>(waitFor([this] { return mission_.has_value(); }, kLatched_s));
+  const std::lock_guard lock(mutex_);
+  return mission_;
 }
 
 std::optional<CommandUpdate> Console::takeRefusal() {

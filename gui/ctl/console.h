@@ -21,6 +21,7 @@ namespace kiln::ctl {
 inline constexpr int kDone = 0;
 inline constexpr int kRefused = 1;
 inline constexpr int kNoLink = 3;
+inline constexpr double kLatched_s = 2.5;  ///< what is told once is repeated every 2 s
 
 class Console {
  public:
@@ -61,6 +62,8 @@ class Console {
   [[nodiscard]] RobotStatus status() const;
   [[nodiscard]] std::optional<FsmStatus> fsm() const;
   [[nodiscard]] std::vector<MacroInfo> macros() const;
+  /// What the mission brings, waiting for it a moment; nullopt: the robot does not tell.
+  [[nodiscard]] std::optional<MissionInfo> mission();
   [[nodiscard]] std::optional<LocalizationStatus> localization() const;
   /// For conditions of waitFor(): the lock is held.
   [[nodiscard]] bool localizationKnown() const { return localization_.has_value(); }
@@ -82,6 +85,7 @@ class Console {
   std::optional<FsmStatus> fsm_;
   std::optional<LocalizationStatus> localization_;
   std::optional<std::vector<MacroInfo>> macros_;
+  std::optional<MissionInfo> mission_;
   std::map<std::uint64_t, CommandUpdate> fates_;
   std::optional<CommandUpdate> refusal_;
   std::unique_ptr<OperatorSession> session_;

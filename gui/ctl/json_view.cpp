@@ -65,8 +65,34 @@ json toJson(const MacroInfo& macro) {
   return {{"name", macro.name},
           {"doc", macro.doc},
           {"duration_s", macro.duration_s},
-          {"water_l", macro.water_l},
+          {"uses", macro.uses},
           {"start_condition", macro.start_condition}};
+}
+
+json toJson(const MissionInfo& info) {
+  json out = {{"mission", info.mission},   {"mission_uuid", info.mission_uuid},
+              {"title", info.title},       {"panels", info.panels},
+              {"figures", json::array()},  {"commands", json::array()},
+              {"actuators", json::array()}};
+  for (const FigureSpec& spec : info.figures)
+    out["figures"].push_back({{"id", spec.id},
+                              {"label", spec.label},
+                              {"unit", spec.unit},
+                              {"estimated", spec.estimated},
+                              {"doc", spec.doc}});
+  for (const CommandSpec& spec : info.commands) {
+    json arguments = json::array();
+    for (const ArgumentSpec& row : spec.arguments)
+      arguments.push_back(
+          {{"name", row.name}, {"unit", row.unit}, {"low", row.low}, {"high", row.high}});
+    out["commands"].push_back({{"name", spec.name},
+                               {"target", spec.target},
+                               {"consequence", spec.consequence},
+                               {"arguments", arguments}});
+  }
+  for (const ActuatorSpec& row : info.actuators)
+    out["actuators"].push_back({{"name", row.name}, {"low", row.low}, {"high", row.high}});
+  return out;
 }
 
 json toJson(const CommandUpdate& update) {
@@ -140,11 +166,6 @@ json toJson(const RobotStatus& status) {
                    {{"q_rad", std::vector<double>(arm.q.data(), arm.q.data() + arm.q.size())},
                     {"safety", std::string(toString(arm.safety))},
                     {"powered", arm.powered}}},
-                  {"water",
-                   {{"duty", status.water.duty},
-                    {"current_a", status.water.current_a},
-                    {"tank_l_est", status.water.tank_l_est},
-                    {"sprayed_l_est", status.water.sprayed_l_est}}},
                   {"macro",
                    {{"running", status.macro.running},
                     {"step", status.macro.step},
@@ -156,8 +177,8 @@ json toJson(const RobotStatus& status) {
                   {"speed_scale", status.speed_scale},
                   {"mission_elapsed_s", status.mission_elapsed_s},
                   {"mission_limit_s", status.mission_limit_s},
-                  {"resets", status.resets},
-                  {"score_est", status.score_est}});
+                  {"resets", status.resets}});
+  for (const Figure& figure : status.figures) out["figures"][figure.id] = figure.value;
   out["recording"] = {{"on", status.recording.on},
                       {"file", status.recording.file},
                       {"duration_s", status.recording.duration_s},
@@ -168,13 +189,12 @@ json toJson(const RobotStatus& status) {
 }
 
 std::string oneLine(const RobotStatus& status, const std::optional<FsmStatus>& fsm) {
-  return fmt::format("{}  {}  lease {}  {}pose {:.2f} {:.2f} m {:.0f} deg  water {:.2f} l (est.){}",
-                     toString(status.word),
+  return fmt::format("{}  {}  lease {}  {}pose {:.2f} {:.2f} m {:.0f} deg{}", toString(status.word),
                      fsm ? fmt::format("{} (step {})", fsm->state, fsm->step) : "no mission",
                      status.lease.holder_name.empty() ? "free" : status.lease.holder_name,
                      status.stop.latched ? fmt::format("STOP by {}  ", status.stop.source) : "",
                      status.X_map_base.x_m, status.X_map_base.y_m,
-                     status.X_map_base.yaw_rad * kDegrees, status.water.sprayed_l_est,
+                     status.X_map_base.yaw_rad * kDegrees,
                      status.reason.empty() ? "" : "  " + status.reason);
 }
 

@@ -15,6 +15,7 @@ namespace kiln::ctl {
 [[nodiscard]] nlohmann::json toJson(const FsmStatus& status);
 [[nodiscard]] nlohmann::json toJson(const LinkReport& link);
 [[nodiscard]] nlohmann::json toJson(const MacroInfo& macro);
+[[nodiscard]] nlohmann::json toJson(const MissionInfo& info);
 [[nodiscard]] nlohmann::json toJson(const Alarm& alarm);
 [[nodiscard]] nlohmann::json toJson(const CommandUpdate& update);
 [[nodiscard]] nlohmann::json toJson(const LocalizationStatus& status);

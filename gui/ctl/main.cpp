@@ -22,7 +22,8 @@ struct Request {
   std::string from_or_to, to, mode, name, alarm, frame = "base", record;
   std::array<double, 3> base{};
   std::vector<double> arm;
-  double left = 0.0, right = 0.0, seconds = 0.0, period_s = 0.5, scale = 0.35;
+  std::vector<std::string> arguments;
+  double seconds = 0.0, period_s = 0.5, scale = 0.35;
   bool restart = false;
 };
 
@@ -105,23 +106,19 @@ void addPlaces(CLI::App& app, Request& request) {
       return kiln::ctl::commandWithControl(console, kiln::SetPose{{x, y, yaw_deg * M_PI / 180.0}});
     };
   });
-  CLI::App* nudge = app.add_subcommand(
-      "nudge", "nudge PLACE DX DY DYAW_DEG: move a configured fire place in map");
-  nudge->add_option("PLACE", request.name, "\"place 1\"")->required();
-  nudge->add_option("BY", request.base, "m, m, degrees")->required();
-  nudge->callback([&request] {
+  app.add_subcommand("mission", "what the mission brings: figures, commands, actuators")
+      ->callback([&request] {
+        request.options.role = kiln::ClientRole::Viewer;
+        request.run = kiln::ctl::showMission;
+      });
+  CLI::App* command = app.add_subcommand(
+      "do", "do NAME [TARGET] [--set KEY=NUMBER ...]: a command of the mission (see: mission)");
+  command->add_option("NAME", request.name, "\"nudge_place\"")->required();
+  command->add_option("TARGET", request.to, "what it is given to: \"place 1\"");
+  command->add_option("--set", request.arguments, "an argument; those left out are 0");
+  command->callback([&request] {
     request.run = [&request](Console& console) {
-      const auto& [dx, dy, dyaw_deg] = request.base;
-      return kiln::ctl::commandWithControl(
-          console, kiln::NudgePlace{request.name, {dx, dy, dyaw_deg * M_PI / 180.0}});
-    };
-  });
-  CLI::App* go_on = app.add_subcommand("continue-despite",
-                                       "go on although a check of PLACE objects; you have looked");
-  go_on->add_option("PLACE", request.name, "\"place 1\"")->required();
-  go_on->callback([&request] {
-    request.run = [&request](Console& console) {
-      return kiln::ctl::commandWithControl(console, kiln::ContinueDespite{request.name});
+      return kiln::ctl::missionCommand(console, request.name, request.to, request.arguments);
     };
   });
 }
@@ -196,12 +193,12 @@ void addHolds(CLI::App& app, Request& request) {
     body.velocity = Eigen::Map<const kiln::Vector6d>(request.arm.data());
     hold(body);
   });
-  CLI::App* pump =
-      app.add_subcommand("pump", "pump LEFT RIGHT: duty 0 to 1 while this runs (mode teleop)");
-  pump->add_option("LEFT", request.left)->required();
-  pump->add_option("RIGHT", request.right)->required();
-  pump->add_option("--seconds", request.seconds, "release after this; 0: a signal releases");
-  pump->callback([&request, hold] { hold(kiln::HoldPump{request.left, request.right}); });
+  CLI::App* actuator = app.add_subcommand(
+      "hold", "hold ACTUATOR VALUE: run it while this runs (mode teleop; names: mission)");
+  actuator->add_option("ACTUATOR", request.name, "\"pumps\"")->required();
+  actuator->add_option("VALUE", request.scale)->required();
+  actuator->add_option("--seconds", request.seconds, "release after this; 0: a signal releases");
+  actuator->callback([&request, hold] { hold(kiln::HoldActuator{request.name, request.scale}); });
   CLI::App* speed = app.add_subcommand("speed", "speed scale of jogs, 0 to 1");
   speed->add_option("SCALE", request.scale)->required();
   speed->callback([&request] {

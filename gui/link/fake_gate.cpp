@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "common/wire/fire/fire_view.h"
 #include "gui/link/fake_robot.h"
 
 /// What the fake robot accepts and refuses; the same rules and codes as the daemon's gate, in
@@ -63,7 +64,11 @@ FakeRobot::Ack FakeRobot::handleWithLease(const CommandBody& body) {
   }
   if (std::holds_alternative<AcknowledgeAlarm>(body)) return done();
   if (const auto* pose = std::get_if<SetPose>(&body)) return setPose(*pose);
-  if (const auto* by = std::get_if<NudgePlace>(&body)) return nudge(*by);
+  if (const auto* command = std::get_if<MissionCommand>(&body)) {
+    if (command->name == fire::kNudgePlace) return nudge(*command);
+    if (stopped_) return refused("stopped", "a stop is latched: clear it first");
+    return running_ ? done() : refused("not_running", "no mission runs");
+  }
   if (stopped_) return refused("stopped", "a stop is latched: clear it first");
   if (std::holds_alternative<StartMission>(body)) {
     if (running_) return refused("wrong_state", "the mission runs already");
@@ -88,8 +93,6 @@ FakeRobot::Ack FakeRobot::handleWithLease(const CommandBody& body) {
     return done();
   }
   if (const auto* change = std::get_if<ChangeState>(&body)) return changeState(*change);
-  if (std::holds_alternative<ContinueDespite>(body))
-    return running_ ? done() : refused("not_running", "no mission runs");
   if (std::holds_alternative<ResetRobot>(body)) {
     pose_ = {};
     legs_.push_back({static_cast<int>(legs_.size()), {}});
@@ -126,7 +129,9 @@ FakeRobot::Ack FakeRobot::handleSetpoint(const CommandBody& body) {
   if (stopped_) return refused("stopped", "a stop is latched: clear it first");
   if (mode_ != Mode::Teleop) return refused("wrong_mode", "needs Teleop mode");
   if (const auto* base = std::get_if<JogBase>(&body)) jog_ = base->twist;
-  if (const auto* pump = std::get_if<HoldPump>(&body)) hand_duty_ = {pump->left, pump->right};
+  if (const auto* pump = std::get_if<HoldActuator>(&body))
+    hand_duty_ = {pump->name == kPumpRight ? 0.0 : pump->value,
+                  pump->name == kPumpLeft ? 0.0 : pump->value};
   if (const auto* arm = std::get_if<JogArm>(&body)) {
     if (arm->frame == JogFrame::Joint)
       q_ += arm->velocity * 0.04;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "common/wire/fire/codec/fire_codec.h"
 #include "gui/link/fake_sensors.h"
 
 namespace kiln::gui {
@@ -30,6 +31,7 @@ void FakeLink::open() {
       true, "", "Bob", "fake", kProtocolVersion, robot_.fsmInfo().mission_uuid, Environment::Sim};
   emit hello(reply);
   emit fsmInfo(std::make_shared<const FsmInfo>(robot_.fsmInfo()));
+  emit missionInfo(std::make_shared<const MissionInfo>(robot_.missionInfo()));
   emit macros(robot_.macros());
   emit stopLane(lane_);
   publishHealth();
@@ -145,7 +147,8 @@ void FakeLink::publishSensors() {
   if (tick_ % 2 == 1) {
     const ThermalImagePtr picture = makeFakeThermal(robot_, tick_);
     emit thermal(picture);
-    emit heat(std::make_shared<const HeatDetections>(makeFakeHeat(robot_, *picture)));
+    emit missionStream(
+        std::make_shared<const MissionDetail>(wire::encodeDetail(makeFakeHeat(robot_, *picture))));
   }
   if (tick_ % 3 == 0 && !robot_.cameraFrozen()) emit image(makeFakeCamera(robot_, tick_));
 }

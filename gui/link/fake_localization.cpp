@@ -136,17 +136,21 @@ FakeRobot::Ack FakeRobot::setPose(const SetPose& pose) {
   return {AckOutcome::Done, "", ""};
 }
 
-FakeRobot::Ack FakeRobot::nudge(const NudgePlace& nudge) {
+FakeRobot::Ack FakeRobot::nudge(const MissionCommand& nudge) {
   const auto known = places();
   const auto place = std::find_if(known.begin(), known.end(),
-                                  [&](const FirePlaceInfo& p) { return p.name == nudge.place; });
+                                  [&](const FirePlaceInfo& p) { return p.name == nudge.target; });
   if (place == known.end()) {
     return {AckOutcome::Refused, "no_such_place",
-            fmt::format("there is no fire place '{}'", nudge.place)};
+            fmt::format("there is no fire place '{}'", nudge.target)};
   }
   Pose2& sum = nudges_[static_cast<std::size_t>(place - known.begin())];
-  sum = {sum.x_m + nudge.by.x_m, sum.y_m + nudge.by.y_m, sum.yaw_rad + nudge.by.yaw_rad};
-  say(3, fmt::format("{} moved by {}", nudge.place, holder_name_));
+  for (const auto& [name, value] : nudge.arguments) {
+    if (name == "x") sum.x_m += value;
+    if (name == "y") sum.y_m += value;
+    if (name == "yaw") sum.yaw_rad += value * M_PI / 180.0;
+  }
+  say(3, fmt::format("{} moved by {}", nudge.target, holder_name_));
   return {AckOutcome::Done, "", ""};
 }
 

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "common/wire/fire/codec/fire_codec.h"
+#include "common/wire/fire/fire_view.h"
 #include "gui/link/fake_robot.h"
 
 /// What the fake robot tells: status, state, scene, macros.
@@ -97,10 +99,11 @@ RobotStatus FakeRobot::status() const {
   const double t = toSeconds(now_);
   s.arm.wrench_tool[0] = 6.0 + 2.0 * std::sin(t * 1.7) + std::sin(t * 7.1);
   s.arm.wrench_tool[2] = (duty_[0] > 0 ? 9.0 : 3.0) + 1.5 * std::sin(t * 3.3);
-  s.X_base_nozzle = geometry_.X_base_flange(q_) * geometry_.X_flange_nozzle.pose();
   s.battery_v = 28.9 - missionElapsedS() / 900.0;
   s.battery_a = 6.5;
-  s.water = {duty_, {duty_[0] * 2.1, duty_[1] * 2.0}, tank_, sprayed_l_};
+  const HotSpot hot = hotSpot();
+  s.figures = fire::figures({duty_, {duty_[0] * 2.1, duty_[1] * 2.0}, tank_, sprayed_l_},
+                            std::min(sprayed_l_ * 0.75, 1.0) * 6.0, hot.peak_c + 273.15);
   s.resets = static_cast<int>(legs_.size()) - 1;
   const double recorded_s = recording_ ? toSeconds(now_ - recording_since_) : recorded_s_;
   if (recorded_s > 0.0 || recording_) {
@@ -113,7 +116,6 @@ RobotStatus FakeRobot::status() const {
              macro_result_};
   s.speed_scale = speed_scale_;
   s.mission_elapsed_s = missionElapsedS();
-  s.score_est = std::min(sprayed_l_ * 0.75, 1.0) * 6.0;
   s.operators = {holder_name_};
   if (tank_[0] + tank_[1] < 6.9 && tank_[0] + tank_[1] > 6.0 && running_) {
     s.alarms.push_back({"water.low", AlarmLevel::Advisory, "Water below 7 l (est.)",
@@ -126,8 +128,10 @@ Scene FakeRobot::scene() const {
   Scene s;
   s.stamp = now_;
   s.arena = makeFakeArena();
-  s.places = places();
-  s.place_checks = placeChecks();
+  FireSite site;
+  site.stamp = now_;
+  site.places = places();
+  site.place_checks = placeChecks();
   s.planned.stamp = now_;
   s.planned.waypoints_map = {{0, 0, 0}, {2.5, 0, 0}, {7.4, 0, 0}, {8.6, 1.6, 0}, {9.95, 2.8, 0}};
   s.planned.next = at_ == 0 ? 1 : 4;
@@ -145,24 +149,33 @@ Scene FakeRobot::scene() const {
     fire.range_m = 0.86;
     fire.baseline_range_m = 0.93;
     fire.place = "place 2";
-    s.fires.push_back(fire);
+    site.fires.push_back(fire);
     const Eigen::Isometry3d X_map_nozzle =
         toIsometry(pose_) * geometry_.X_base_flange(q_) * geometry_.X_flange_nozzle.pose();
     const Eigen::Vector3d p = X_map_nozzle.translation();
     const Eigen::Vector3d v = (fire.p_map - p) / 0.3 + Eigen::Vector3d(0, 0, 0.5 * 9.81 * 0.3);
     for (double t = 0; t <= 0.3; t += 0.02) {
-      s.jet.points_map.push_back(p + v * t + Eigen::Vector3d(0, 0, -0.5 * 9.81 * t * t));
+      site.jet_map.push_back(p + v * t + Eigen::Vector3d(0, 0, -0.5 * 9.81 * t * t));
     }
-    s.jet.stamp = now_;
-    s.jet.spraying = duty_[0] > 0;
+    site.spraying = duty_[0] > 0;
   }
+  s.items = fire::sceneItems(site);
+  s.detail = wire::encodeDetail(site);
   return s;
 }
 
+MissionInfo FakeRobot::missionInfo() const {
+  MissionInfo info = fire::missionInfo(0.5, 30.0);
+  info.mission = "fire";
+  info.mission_uuid = info_.mission_uuid;
+  info.actuators = {{kPumps, "Both pumps, duty"}};
+  return info;
+}
+
 std::vector<MacroInfo> FakeRobot::macros() const {
-  return {{"spray fire 1", "aim at place 1 and spray", 18, 0.9, "start within 5 cm"},
-          {"spray fire 2", "aim at place 2 and spray", 18, 0.9, "start within 5 cm"},
-          {"arm park", "fold the arm above the deck", 6, 0.0, "from anywhere"}};
+  return {{"spray fire 1", "aim at place 1 and spray", 18, "start within 5 cm", "est. 0.9 l"},
+          {"spray fire 2", "aim at place 2 and spray", 18, "start within 5 cm", "est. 0.9 l"},
+          {"arm park", "fold the arm above the deck", 6, "from anywhere", ""}};
 }
 
 }  // namespace kiln::gui

@@ -12,6 +12,7 @@
 #include "common/model/scene.h"
 #include "common/model/status.h"
 #include "common/robot_model/robot_geometry.h"
+#include "common/wire/fire/fire_model.h"
 
 namespace kiln::gui {
 
@@ -40,6 +41,7 @@ class FakeRobot {
   [[nodiscard]] LocalizationStatus localization() const;
   [[nodiscard]] Trajectory trajectory() const;
   [[nodiscard]] std::vector<MacroInfo> macros() const;
+  [[nodiscard]] MissionInfo missionInfo() const;
   [[nodiscard]] std::vector<LogLine> takeLog();
   [[nodiscard]] Stamp now() const { return now_; }
   /// Celsius at the plate as seen now; the hot spot's pixel in the thermal image is (u, v); < 0 =
@@ -67,7 +69,7 @@ class FakeRobot {
   [[nodiscard]] double inStateS() const { return toSeconds(now_ - entered_) - held_s_; }
   [[nodiscard]] Ack changeState(const ChangeState& change);
   [[nodiscard]] Ack setPose(const SetPose& pose);
-  [[nodiscard]] Ack nudge(const NudgePlace& nudge);
+  [[nodiscard]] Ack nudge(const MissionCommand& nudge);
   [[nodiscard]] std::vector<Check> checks() const;
   [[nodiscard]] std::vector<FirePlaceInfo> places() const;
   [[nodiscard]] std::vector<PlaceCheck> placeChecks() const;

@@ -6,9 +6,9 @@
 #include <Eigen/Geometry>
 
 #include "common/geom/camera_model.h"
-#include "common/model/fire.h"
 #include "common/model/scene.h"
 #include "common/model/sensor.h"
+#include "common/wire/fire/fire_model.h"
 #include "gui/link/fake_robot.h"
 
 namespace kiln::gui {

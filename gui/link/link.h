@@ -8,7 +8,6 @@
 
 #include "common/core/clock.h"
 #include "common/model/command.h"
-#include "common/model/fire.h"
 #include "common/model/fsm.h"
 #include "common/model/localization.h"
 #include "common/model/scene.h"
@@ -92,7 +91,8 @@ class Link : public QObject {
   void fsmStatus(std::shared_ptr<const kiln::FsmStatus> status);
   void cloud(kiln::PointCloudPtr cloud);
   void thermal(kiln::ThermalImagePtr image);
-  void heat(std::shared_ptr<const kiln::HeatDetections> detections);
+  void missionInfo(std::shared_ptr<const kiln::MissionInfo> info);
+  void missionStream(std::shared_ptr<const kiln::MissionDetail> detail);
   void image(kiln::RgbImagePtr image);
   void scene(std::shared_ptr<const kiln::Scene> scene);
   void localization(std::shared_ptr<const kiln::LocalizationStatus> status);

@@ -28,7 +28,8 @@ TopicInboxes::TopicInboxes(Link& link, std::function<void(const Arrival&)> arriv
       macros_(link, [&link](const auto& value) { emit link.macros(value); }),
       cloud_(link, [&link](const auto& value) { emit link.cloud(value); }),
       thermal_(link, [&link](const auto& value) { emit link.thermal(value); }),
-      heat_(link, [&link](const auto& value) { emit link.heat(value); }),
+      mission_info_(link, [&link](const auto& value) { emit link.missionInfo(value); }),
+      mission_stream_(link, [&link](const auto& value) { emit link.missionStream(value); }),
       head_image_(link, [&link](const auto& value) { emit link.image(value); }),
       operator_image_(link, [&link](const auto& value) { emit link.image(value); }),
       log_(link, kLogQueue, [&link](const std::vector<LogLine>& lines) { emit link.log(lines); }) {
@@ -66,7 +67,12 @@ OperatorSession::Callbacks TopicInboxes::callbacks() {
   };
   c.on_cloud = [this](PointCloudPtr v, const Arrival&) { cloud_.put(std::move(v)); };
   c.on_thermal = [this](ThermalImagePtr v, const Arrival&) { thermal_.put(std::move(v)); };
-  c.on_heat = [this](const HeatDetections& v, const Arrival&) { heat_.put(shared(v)); };
+  c.on_mission_info = [this](const MissionInfo& v, const Arrival&) {
+    mission_info_.put(shared(v));
+  };
+  c.on_mission_stream = [this](const MissionDetail& v, const Arrival&) {
+    mission_stream_.put(shared(v));
+  };
   c.on_jpeg = [this](JpegImagePtr v, const Arrival&) { decoder_->put(std::move(v)); };
   c.on_bad_message = [this](const Error& e) { warn(e.message); };
   return c;

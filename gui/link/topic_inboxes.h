@@ -51,7 +51,8 @@ class TopicInboxes {
   Inbox<std::vector<MacroInfo>> macros_;
   Inbox<PointCloudPtr> cloud_;
   Inbox<ThermalImagePtr> thermal_;
-  Inbox<std::shared_ptr<const HeatDetections>> heat_;
+  Inbox<std::shared_ptr<const MissionInfo>> mission_info_;
+  Inbox<std::shared_ptr<const MissionDetail>> mission_stream_;
   Inbox<RgbImagePtr> head_image_, operator_image_;
   Batches<LogLine> log_;
   std::unique_ptr<JpegDecoder> decoder_;  // last: its thread calls the above

@@ -29,7 +29,6 @@ CloudModel::CloudModel(Link& link, QObject* parent) : Model(link, kVideoAge, par
 
 ThermalModel::ThermalModel(Link& link, QObject* parent) : Model(link, kVideoAge, parent) {
   connect(&link, &Link::absent, this, [this](const std::vector<Topic>& topics) {
-    if (holds(topics, Topic::Heat)) heat_.reset();
     if (!holds(topics, Topic::Thermal)) return touch();
     image_.reset();
     forget();
@@ -38,10 +37,6 @@ ThermalModel::ThermalModel(Link& link, QObject* parent) : Model(link, kVideoAge,
     if (!image_ || image->frame_counter != image_->frame_counter) advanced_ = stationNow();
     image_ = std::move(image);
     arrived(image_->stamp);
-  });
-  connect(&link, &Link::heat, this, [this](std::shared_ptr<const HeatDetections> heat) {
-    heat_ = std::move(heat);
-    touch();
   });
 }
 

@@ -17,21 +17,18 @@ class CloudModel : public Model {
   PointCloudPtr cloud_;
 };
 
-/// Newest thermal image and what the detector found in it. The age is that of the image; a frozen
-/// camera that repeats one frame grows old although frames arrive.
+/// Newest thermal image. The age is that of the image; a frozen camera that repeats one frame grows
+/// old although frames arrive.
 class ThermalModel : public Model {
   Q_OBJECT
  public:
   explicit ThermalModel(Link& link, QObject* parent = nullptr);
   [[nodiscard]] const ThermalImagePtr& image() const { return image_; }  ///< may be null
-  /// Detections of the newest image or of one shortly before it; may be null.
-  [[nodiscard]] const std::shared_ptr<const HeatDetections>& heat() const { return heat_; }
   /// Seconds since the picture last moved on (the camera's own counter), < 0 before the first.
   [[nodiscard]] double frozenS() const;
 
  private:
   ThermalImagePtr image_;
-  std::shared_ptr<const HeatDetections> heat_;
   Stamp advanced_;
 };
 

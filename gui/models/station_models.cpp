@@ -11,6 +11,7 @@ StationModels::StationModels(Link& link_in, QObject* parent)
       stop(link, commands),
       lease(link, commands),
       fsm(link),
+      mission(link),
       cloud(link),
       thermal(link),
       camera(link, "operator_camera"),
@@ -66,11 +67,11 @@ void StationModels::flush() {
   for (Model* model :
        {static_cast<Model*>(&commands), static_cast<Model*>(&status),
         static_cast<Model*>(&link_state), static_cast<Model*>(&stop), static_cast<Model*>(&lease),
-        static_cast<Model*>(&fsm), static_cast<Model*>(&cloud), static_cast<Model*>(&thermal),
-        static_cast<Model*>(&camera), static_cast<Model*>(&head_camera),
-        static_cast<Model*>(&scene), static_cast<Model*>(&localization), static_cast<Model*>(&map),
-        static_cast<Model*>(&macros), static_cast<Model*>(&alarms), static_cast<Model*>(&log),
-        static_cast<Model*>(&trends)}) {
+        static_cast<Model*>(&fsm), static_cast<Model*>(&mission), static_cast<Model*>(&cloud),
+        static_cast<Model*>(&thermal), static_cast<Model*>(&camera),
+        static_cast<Model*>(&head_camera), static_cast<Model*>(&scene),
+        static_cast<Model*>(&localization), static_cast<Model*>(&map), static_cast<Model*>(&macros),
+        static_cast<Model*>(&alarms), static_cast<Model*>(&log), static_cast<Model*>(&trends)}) {
     model->flush();
   }
 }
@@ -102,7 +103,7 @@ void StationModels::watchViews() {
   alarms.setOwn(QStringLiteral("station.thermal_stale"), AlarmLevel::Caution,
                 linked && thermal.hasData() && thermal.ageLevel() == AgeLevel::Red,
                 tr("Thermal camera frozen %1 s").arg(thermal.ageS(), 0, 'f', 1),
-                tr("aiming waits for it; check its cable"));
+                tr("check its cable"));
 }
 
 }  // namespace kiln::gui

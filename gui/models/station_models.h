@@ -7,6 +7,7 @@
 #include "gui/models/fsm_model.h"
 #include "gui/models/lease_model.h"
 #include "gui/models/localization_model.h"
+#include "gui/models/mission_model.h"
 #include "gui/models/sensor_models.h"
 #include "gui/models/status_models.h"
 #include "gui/models/stop_model.h"
@@ -31,6 +32,7 @@ class StationModels : public QObject {
   StopModel stop;
   LeaseModel lease;
   FsmModel fsm;
+  MissionModel mission;
   CloudModel cloud;
   ThermalModel thermal;
   CameraModel camera;       ///< the operator's, rear top

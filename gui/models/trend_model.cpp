@@ -6,7 +6,8 @@ namespace kiln::gui {
 
 TrendModel::TrendModel(Link& link, QObject* parent) : Model(link, AgeLimits{}, parent) {
   connect(&link, &Link::restarted, this, [this] {
-    for (Series* series : {&rtt_, &peak_, &force_}) series->clear();
+    for (Series* series : {&rtt_, &force_}) series->clear();
+    for (auto& [id, series] : figures_) series.clear();
     touch();
   });
   connect(&link, &Link::health, this, [this](const LinkHealth& health) {
@@ -18,14 +19,30 @@ TrendModel::TrendModel(Link& link, QObject* parent) : Model(link, AgeLimits{}, p
             : NAN);
     touch();
   });
-  connect(&link, &Link::heat, this, [this](const std::shared_ptr<const HeatDetections>& heat) {
-    add(peak_, heat->stamp, heat->usable ? heat->max_k : NAN);
-    touch();
+  connect(&link, &Link::missionInfo, this, [this](const std::shared_ptr<const MissionInfo>& info) {
+    std::map<std::string, Series> plotted;
+    for (const FigureSpec& spec : info->figures)
+      if (spec.plot) plotted[spec.id] = std::move(figures_[spec.id]);
+    figures_ = std::move(plotted);
   });
   connect(&link, &Link::status, this, [this](const std::shared_ptr<const RobotStatus>& status) {
     add(force_, status->stamp, status->arm.wrench_tool.head<3>().norm());
+    addFigures(*status);
     arrived(status->stamp);
   });
+}
+
+void TrendModel::addFigures(const RobotStatus& status) {
+  for (auto& [id, series] : figures_) {
+    const Figure* figure = findFigure(status.figures, id);
+    add(series, status.stamp, figure ? figure->value : NAN);
+  }
+}
+
+const TrendModel::Series& TrendModel::figure(const std::string& id) const {
+  static const Series kNone;
+  const auto found = figures_.find(id);
+  return found == figures_.end() ? kNone : found->second;
 }
 
 void TrendModel::add(Series& series, Stamp stamp, double value) {

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <deque>
+#include <map>
+#include <string>
 
 #include "gui/models/model.h"
 
@@ -18,15 +20,18 @@ class TrendModel : public Model {
   using Series = std::deque<Sample>;
 
   explicit TrendModel(Link& link, QObject* parent = nullptr);
-  [[nodiscard]] const Series& rttS() const { return rtt_; }    ///< heartbeat round trip, seconds
-  [[nodiscard]] const Series& peakK() const { return peak_; }  ///< hottest pixel, kelvin
+  [[nodiscard]] const Series& rttS() const { return rtt_; }  ///< heartbeat round trip, seconds
+  /// Of a figure that the mission wants plotted; empty for another.
+  [[nodiscard]] const Series& figure(const std::string& id) const;
   [[nodiscard]] const Series& armForceN() const {
     return force_;
   }  ///< norm of the tool force, newton
 
  private:
   static void add(Series& series, Stamp stamp, double value);
-  Series rtt_, peak_, force_;
+  void addFigures(const RobotStatus& status);
+  Series rtt_, force_;
+  std::map<std::string, Series> figures_;  ///< of the plotted ones
 };
 
 }  // namespace kiln::gui

@@ -121,7 +121,8 @@ CommandAck MissionControl::executeDiscrete(const Command& command, Stamp now) {
     parts_.set_recording(recording->on);
     return done(command);
   }
-  const auto obeyed = parts_.host.mission().command(body, command.operator_name, now);
+  const auto& asked = std::get<MissionCommand>(body);
+  const auto obeyed = parts_.host.mission().command(asked, command.operator_name, now);
   if (!obeyed) return answer(command, AckOutcome::Refused, "mission", obeyed.error().message);
   logger("mission")->warn("{} by {}", commandName(body), command.operator_name);
   return done(command);
@@ -164,8 +165,8 @@ void MissionControl::executeSetpoint(const Authority::Accepted& accepted) {
     if (state) {
       parts_.teleop.jogArm(*arm, state->q, parts_.pose(), accepted.received, accepted.speed_scale);
     }
-  } else if (const auto* pump = std::get_if<HoldPump>(&body)) {
-    parts_.teleop.holdPump(*pump, accepted.received);
+  } else if (const auto* actuator = std::get_if<HoldActuator>(&body)) {
+    parts_.teleop.holdActuator(*actuator, accepted.received);
   }
 }
 

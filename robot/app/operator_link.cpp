@@ -12,6 +12,7 @@
 #include "common/wire/command.h"
 #include "common/wire/fsm.h"
 #include "common/wire/localization.h"
+#include "common/wire/mission.h"
 #include "common/wire/sensor.h"
 #include "common/wire/telemetry.h"
 #include "common/wire/world.h"
@@ -247,6 +248,9 @@ void OperatorLink::publish(RobotStatus status) {
 void OperatorLink::publish(FsmInfo info) {
   impl_->publish(Topic::FsmInfo, [value = std::move(info)] { return wire::encode(value); });
 }
+void OperatorLink::publish(MissionInfo info) {
+  impl_->publish(Topic::MissionInfo, [value = std::move(info)] { return wire::encode(value); });
+}
 void OperatorLink::publish(FsmStatus status) {
   impl_->publish(Topic::FsmStatus, [value = std::move(status)] { return wire::encode(value); });
 }
@@ -278,8 +282,8 @@ void OperatorLink::publish(PointCloudPtr cloud) {
 void OperatorLink::publish(ThermalImagePtr image) {
   impl_->publish(Topic::Thermal, [value = std::move(image)] { return wire::encode(*value); });
 }
-void OperatorLink::publish(HeatDetections detections) {
-  impl_->publish(Topic::Heat, [value = std::move(detections)] { return wire::encode(value); });
+void OperatorLink::publish(MissionDetail detail) {
+  impl_->publish(Topic::MissionStream, [value = std::move(detail)] { return wire::encode(value); });
 }
 void OperatorLink::publish(JpegImagePtr image) {
   const Topic topic =

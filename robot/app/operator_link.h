@@ -9,7 +9,6 @@
 #include "common/config/config_archive.h"
 #include "common/core/clock.h"
 #include "common/core/error.h"
-#include "common/model/fire.h"
 #include "common/model/fsm.h"
 #include "common/model/link.h"
 #include "common/model/localization.h"
@@ -71,7 +70,8 @@ class OperatorLink {
   // --- telemetry
   // -------------------------------------------------------------------------------------------------
   void publish(RobotStatus status);
-  void publish(FsmInfo info);  ///< latched
+  void publish(FsmInfo info);      ///< latched
+  void publish(MissionInfo info);  ///< latched
   void publish(FsmStatus status);
   void publish(Scene scene);                    ///< latched
   void publish(std::vector<MacroInfo> macros);  ///< latched
@@ -81,8 +81,8 @@ class OperatorLink {
   void publish(LogBatch batch);
   void publish(PointCloudPtr cloud);
   void publish(ThermalImagePtr image);
-  void publish(HeatDetections detections);
-  void publish(JpegImagePtr image);  ///< frame "rgb" or "operator_camera"
+  void publish(MissionDetail detail);  ///< on the mission stream
+  void publish(JpegImagePtr image);    ///< frame "rgb" or "operator_camera"
   /// Pictures are taken though no station watches (for the recording).
   void keepPictures(bool keep);
   /// Somebody wants pictures of this frame: encode JPEG only then.

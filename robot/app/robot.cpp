@@ -98,9 +98,13 @@ Result<void> Robot::Impl::makeMission(Executor& executor) {
       {clock, executor, arena, robot, belief, drive, move_arm, devices.arm, pumps, spray,
        [this] { return pose(); }, surroundings, [this](Stamp stamp) { return flangeAt(stamp); },
        [this](const ThermalImagePtr& image) { telemetry.publish(image); },
-       [this](HeatDetections found) { telemetry.publish(std::move(found)); }});
+       [this](MissionDetail detail) { telemetry.publish(std::move(detail)); }});
   if (!made) return tl::make_unexpected(made.error());
   mission = std::move(*made);
+  mission_info = mission->info();
+  mission_info.mission = kind->name;
+  mission_info.mission_uuid = options.mission_uuid;
+  mission_info.actuators = Teleop::actuators();
   host = std::make_unique<MissionHost>(
       *mission, belief, stop, clock,
       CheckpointKeeper::Config{checkpointPath(), settings.checkpoint_period_s});
@@ -136,6 +140,7 @@ void Robot::Impl::start(Executor& executor) {
   executor.every(kMissionPeriod, "mission", kPriorityMission, [this](Stamp t) { missionTick(t); });
   executor.every(kHealthPeriod, "health", kPriorityMission, [this](Stamp t) { health.tick(t); });
   telemetry.publish(mission->machine().info());
+  telemetry.publish(mission_info);
   telemetry.publish(macros.list());
   if (map_layer) telemetry.publish(map_layer);
   if (options.resume) {
@@ -275,6 +280,7 @@ GateSituation Robot::Impl::gateSituation(Stamp now) const {
   found.ready = allOk(checks);
   found.not_ready_reason = firstFailure(checks);
   found.position_lost = positionLost();
+  found.mission = &mission_info;
   found.view_age_s = std::min(ageOf(perception.lastScan(), now).value_or(1e9),
                               ageOf(telemetry.lastPicture(), now).value_or(1e9));
   return found;

@@ -99,6 +99,7 @@ struct Robot::Impl {
   Teleop teleop;
   AlarmBook alarms;
   Authority authority;
+  MissionInfo mission_info;          ///< told to the stations
   std::unique_ptr<Mission> mission;  ///< made by makeMission(), and the two below with it
   std::unique_ptr<MissionHost> host;
   std::unique_ptr<MissionControl> control;

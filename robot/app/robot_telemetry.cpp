@@ -108,14 +108,13 @@ RobotStatus Robot::Impl::status(Stamp now) const {
   s.twist = base.tracking().measured;
   if (const auto arm_state = devices.arm.state()) {
     s.arm = *arm_state;
-    s.X_base_nozzle = robot.X_base_flange(arm_state->q) * robot.X_flange_nozzle.pose();
   }
   if (const auto base_state = devices.base.state()) {
     for (std::size_t i = 0; i < 4; ++i) s.wheel_steer_rad[i] = base_state->wheels[i].steer_rad;
     s.battery_v = base_state->battery_v;
     s.battery_a = base_state->battery_a;
   }
-  mission->describe(s, now);
+  s.figures = mission->figures(now);
   s.macro = macros.status();
   if (options.recorder) s.recording = options.recorder->status();
   s.speed_scale = teleop.speedScale();

@@ -50,6 +50,9 @@ class TelemetryHub {
   void publish(FsmInfo info) {
     if (link_) link_->publish(std::move(info));
   }
+  void publish(MissionInfo info) {
+    if (link_) link_->publish(std::move(info));
+  }
   void publish(FsmStatus status) {
     if (link_) link_->publish(std::move(status));
   }
@@ -74,8 +77,8 @@ class TelemetryHub {
   void publish(ThermalImagePtr image) {
     if (link_) link_->publish(std::move(image));
   }
-  void publish(HeatDetections detections) {
-    if (link_) link_->publish(std::move(detections));
+  void publish(MissionDetail detail) {
+    if (link_) link_->publish(std::move(detail));
   }
   /// Any thread: encodes on the pool and sends, if somebody watches this camera.
   void onPicture(RgbImagePtr image);

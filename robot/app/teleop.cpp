@@ -109,10 +109,17 @@ void Teleop::jogArm(const JogArm& jog, const Vector6d& q, const Pose2& X_map_bas
   arm_.setpoint(setpoint);
 }
 
-void Teleop::holdPump(const HoldPump& hold, Stamp received) {
+std::vector<ActuatorSpec> Teleop::actuators() {
+  return {{kPumps, "Both pumps, duty"},
+          {kPumpLeft, "Left pump, duty"},
+          {kPumpRight, "Right pump, duty"}};
+}
+
+void Teleop::holdActuator(const HoldActuator& hold, Stamp received) {
   PumpSetpoint setpoint;
   setpoint.stamp = received;
-  setpoint.duty = {std::clamp(hold.left, 0.0, 1.0), std::clamp(hold.right, 0.0, 1.0)};
+  const double duty = std::clamp(hold.value, 0.0, 1.0);
+  setpoint.duty = {hold.name == kPumpRight ? 0.0 : duty, hold.name == kPumpLeft ? 0.0 : duty};
   pumps_.setpoint(setpoint);
 }
 

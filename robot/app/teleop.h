@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "common/model/command.h"
+#include "common/model/mission.h"
 #include "common/robot_model/robot_geometry.h"
 #include "robot/control/arm_controller.h"
 #include "robot/control/base_controller.h"
@@ -42,7 +43,10 @@ class Teleop {
               double link_scale);
   /// Why the last arm jog did not move: "forearm is 2 cm from tank left"; empty if it did.
   [[nodiscard]] const std::string& blocked() const { return blocked_; }
-  void holdPump(const HoldPump& hold, Stamp received);
+  /// What can be held: the pumps, both or one.
+  [[nodiscard]] static std::vector<ActuatorSpec> actuators();
+  /// @pre one of actuators(), in its range.
+  void holdActuator(const HoldActuator& hold, Stamp received);
   /// Explicit zero on everything that teleoperation moves.
   void releaseAll(Stamp now);
 

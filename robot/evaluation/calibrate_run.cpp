@@ -39,7 +39,7 @@ struct Errors {
             {"after_mm", 1e3 * after_m.back()},
             {"after_deg", after_deg.back()}};
   }
-  void append(std::vector<Figure>& figures) const {
+  void append(std::vector<Metric>& figures) const {
     figures.push_back(
         {sensor + "_position_before_median_mm", 1e3 * median(before_m), "mm", "", true});
     figures.push_back({sensor + "_position_median_mm", 1e3 * median(after_m), "mm", "", true});
@@ -84,7 +84,7 @@ struct JetErrors {
             {"flow_true", flow},
             {"flow_found", found.flow}};
   }
-  void append(std::vector<Figure>& figures) const {
+  void append(std::vector<Metric>& figures) const {
     const auto rows = [&](const std::string& what, const char* unit, const auto& before,
                           const auto& after) {
       figures.push_back({what + "_before_median_" + unit, median(before), unit, "", true});

@@ -7,6 +7,8 @@
 #include "common/config/resources.h"
 #include "common/geom/camera_model.h"
 #include "common/robot_model/robot_geometry.h"
+#include "common/wire/fire/codec/fire_codec.h"
+#include "common/wire/fire/fire_view.h"
 #include "robot/evaluation/evaluation.h"
 #include "robot/evaluation/live_system.h"
 #include "robot/evaluation/truth.h"
@@ -39,20 +41,22 @@ Eigen::Vector2d aimMark(const RobotGeometry& robot, double plate_ahead_of_flange
   return *camera.project(target);
 }
 
-const HeatBlob* hottest(const ScriptedOperator::View& view) {
-  if (!view.heat || !view.heat->usable || view.heat->blobs.empty()) return nullptr;
-  const auto& blobs = view.heat->blobs;
+std::optional<HeatBlob> hottest(const ScriptedOperator::View& view) {
+  if (!view.stream || view.stream->schema != fire::kHeatSchema) return std::nullopt;
+  const auto heat = wire::decodeHeat(view.stream->data);
+  if (!heat || !heat->usable || heat->blobs.empty()) return std::nullopt;
+  const auto& blobs = heat->blobs;
   const auto best =
       std::max_element(blobs.begin(), blobs.end(),
                        [](const HeatBlob& a, const HeatBlob& b) { return a.peak_k < b.peak_k; });
-  return best->peak_k > kHot_k ? &*best : nullptr;
+  return best->peak_k > kHot_k ? std::optional(*best) : std::nullopt;
 }
 
 /// Jogs the arm sideways and up or down until the hot spot stands on the aim mark.
 Result<void> aimByHand(ScriptedOperator& person, const Eigen::Vector2d& mark) {
   return person.holdWhile("aiming by hand", seconds(40),
                           [&](const auto& view) -> std::optional<CommandBody> {
-                            const HeatBlob* blob = hottest(view);
+                            const auto blob = hottest(view);
                             JogArm jog;
                             jog.frame = JogFrame::Tool;  // X right, Y down in the picture
                             if (!blob) return jog;       // look on, do not move
@@ -75,7 +79,7 @@ Result<bool> tryPlace(ScriptedOperator& person, const RobotGeometry& robot, cons
     return tl::make_unexpected(drive.error());
   // The plate needs about a minute to get hot.
   const bool burning =
-      person.waitFor("heat", seconds(45), [](const auto& v) { return hottest(v) != nullptr; })
+      person.waitFor("heat", seconds(45), [](const auto& v) { return hottest(v).has_value(); })
           .has_value();
   if (!burning) return false;
   const double plate_ahead_of_base = std::hypot(place.plate_xyz_m[0] - place.work_pose.xy_m[0],
@@ -89,7 +93,7 @@ Result<bool> tryPlace(ScriptedOperator& person, const RobotGeometry& robot, cons
   auto sprayed = person.holdWhile("spraying by hand", seconds(60),
                                   [&](const auto&) -> std::optional<CommandBody> {
                                     if (clock.now() > until) return std::nullopt;
-                                    return HoldPump{1.0, 1.0};
+                                    return HoldActuator{kPumps, 1.0};
                                   });
   if (!sprayed) return tl::make_unexpected(sprayed.error());
   return true;

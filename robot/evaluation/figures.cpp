@@ -54,7 +54,7 @@ Result<std::vector<Goal>> loadGoals(const std::string& path) {
   return goals;
 }
 
-void judge(Figure& figure, const std::string& evaluation, const std::vector<Goal>& goals) {
+void judge(Metric& figure, const std::string& evaluation, const std::vector<Goal>& goals) {
   for (const Goal& goal : goals) {
     if (goal.evaluation != evaluation || goal.id != figure.id) continue;
     figure.goal = fmt::format("{} {}", goal.relation, goal.limit);
@@ -75,7 +75,7 @@ double quantile(std::vector<double> values, double q) {
 std::string formatTable(const EvaluationResult& result) {
   std::string out = fmt::format("{}\n{:<28} {:>12} {:<8} {:>12}  {}\n", result.name, "figure",
                                 "value", "unit", "goal", "");
-  for (const Figure& figure : result.figures) {
+  for (const Metric& figure : result.figures) {
     out += fmt::format("{:<28} {:>12.4g} {:<8} {:>12}  {}\n", figure.id, figure.value, figure.unit,
                        figure.goal.empty() ? "-" : figure.goal,
                        figure.goal.empty() ? ""
@@ -89,7 +89,7 @@ std::string formatTable(const EvaluationResult& result) {
 Result<void> writeJson(const EvaluationResult& result, const std::string& path) {
   nlohmann::json json{{"name", result.name}, {"version", KILN_VERSION}, {"machine", machineName()}};
   json["figures"] = nlohmann::json::array();
-  for (const Figure& figure : result.figures) {
+  for (const Metric& figure : result.figures) {
     json["figures"].push_back(
         {{"id", figure.id},
          {"value", std::isfinite(figure.value) ? nlohmann::json(figure.value) : nlohmann::json()},

@@ -8,7 +8,7 @@
 namespace kiln {
 
 /// One measured figure of an evaluation, held against its goal in tests/bench/goals.yaml.
-struct Figure {
+struct Metric {
   std::string id;
   double value = 0.0;
   std::string unit;
@@ -25,7 +25,7 @@ struct Goal {
 
 [[nodiscard]] Result<std::vector<Goal>> loadGoals(const std::string& path);
 /// Fills goal and ok of a figure from the list; no goal = ok.
-void judge(Figure& figure, const std::string& evaluation, const std::vector<Goal>& goals);
+void judge(Metric& figure, const std::string& evaluation, const std::vector<Goal>& goals);
 
 /// Order statistics; NaN for an empty list.
 [[nodiscard]] double quantile(std::vector<double> values, double q);
@@ -37,7 +37,7 @@ void judge(Figure& figure, const std::string& evaluation, const std::vector<Goal
 struct EvaluationResult {
   std::string name;
   std::string goal_set;  ///< whose goals it is held against; empty = those of `name`
-  std::vector<Figure> figures;
+  std::vector<Metric> figures;
   std::string runs_json = "[]";  ///< a JSON list, one object a run
   std::string notes;
 };

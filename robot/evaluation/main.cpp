@@ -78,7 +78,7 @@ int runEvaluation(const Evaluation& evaluation, const SweepOptions& options,
   auto result = evaluation.run(options);
   if (!result) return fail(result.error());
   bool all_ok = true;
-  for (Figure& figure : result->figures) {
+  for (Metric& figure : result->figures) {
     judge(figure, result->goal_set.empty() ? result->name : result->goal_set, *goal_list);
     all_ok &= figure.ok;
   }

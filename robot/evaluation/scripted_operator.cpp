@@ -33,8 +33,8 @@ OperatorSession::Callbacks ScriptedOperator::callbacks() {
     update([&](View& v) { v.status = s; });
   };
   on.on_scene = [this](const Scene& s, const Arrival&) { update([&](View& v) { v.scene = s; }); };
-  on.on_heat = [this](const HeatDetections& h, const Arrival&) {
-    update([&](View& v) { v.heat = h; });
+  on.on_mission_stream = [this](const MissionDetail& d, const Arrival&) {
+    update([&](View& v) { v.stream = d; });
   };
   return on;
 }

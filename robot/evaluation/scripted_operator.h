@@ -20,7 +20,7 @@ class ScriptedOperator {
   /// What the operator sees.
   struct View {
     std::optional<RobotStatus> status;
-    std::optional<HeatDetections> heat;
+    std::optional<MissionDetail> stream;  ///< newest of the mission stream
     std::optional<Scene> scene;
     std::optional<CommandUpdate> last_command;
     /// Newest word on each of the last commands, by nonce: an answer may be followed at once by

@@ -13,7 +13,8 @@ using gate::refuse;
 
 constexpr double kMaxYaw_rad = 2.0 * M_PI;
 
-GateDecision checkNumber(double value, double min, double max, const char* what, const char* unit) {
+GateDecision checkNumber(double value, double min, double max, std::string_view what,
+                         std::string_view unit) {
   if (!std::isfinite(value))
     return refuse("not_finite", fmt::format("{} is {}; not obeyed", what, value));
   if (value < min || value > max) {
@@ -25,6 +26,31 @@ GateDecision checkNumber(double value, double min, double max, const char* what,
 
 GateDecision firstRefusal(std::initializer_list<GateDecision> decisions) {
   for (const GateDecision& decision : decisions) {
+    if (!decision.accepted) return decision;
+  }
+  return {};
+}
+
+/// A command as the mission has described it: known, given to something, each argument once and in
+/// its range.
+GateDecision checkMissionCommand(const MissionCommand& command, const GateSituation& situation) {
+  const CommandSpec* spec = situation.mission ? situation.mission->command(command.name) : nullptr;
+  if (!spec)
+    return refuse("no_such_command", fmt::format("this mission knows no '{}'", command.name));
+  if (spec->target.empty() != command.target.empty())
+    return refuse("bad_arguments", spec->target.empty()
+                                       ? fmt::format("{} is given to nothing, not to '{}'",
+                                                     spec->name, command.target)
+                                       : fmt::format("{} needs a {}", spec->name, spec->target));
+  if (command.arguments.size() != spec->arguments.size())
+    return refuse("bad_arguments", fmt::format("{} takes {} arguments, {} were given", spec->name,
+                                               spec->arguments.size(), command.arguments.size()));
+  for (const ArgumentSpec& due : spec->arguments) {
+    const auto given = std::find_if(command.arguments.begin(), command.arguments.end(),
+                                    [&](const auto& a) { return a.name == due.name; });
+    if (given == command.arguments.end())
+      return refuse("bad_arguments", fmt::format("{} needs {}", spec->name, due.name));
+    auto decision = checkNumber(given->value, due.low, due.high, due.name, due.unit);
     if (!decision.accepted) return decision;
   }
   return {};
@@ -53,9 +79,6 @@ void CommandGate::Config::visit(ConfigArchive& a) {
           "faster turns are refused as errors");
   a.field("arena_reach_m", arena_reach_m, "m", 1.0, 1000.0,
           "no pose is set further from the origin of map");
-  a.field("max_nudge_m", max_nudge_m, "m", 0.0, 2.0,
-          "a fire place is nudged at most this far at a time, each axis");
-  a.field("max_nudge_deg", max_nudge_deg, "deg", 0.0, 90.0, "and turned at most this far");
 }
 
 GateDecision CommandGate::decide(const ReceivedCommand& received, const LeaseStatus& lease,
@@ -63,7 +86,7 @@ GateDecision CommandGate::decide(const ReceivedCommand& received, const LeaseSta
   const CommandBody& body = received.command.body;
   if (auto decision = checkSender(received, lease); !decision.accepted) return decision;
   if (auto decision = checkFreshness(received, now); !decision.accepted) return decision;
-  if (auto decision = checkValues(body); !decision.accepted) return decision;
+  if (auto decision = checkValues(body, situation); !decision.accepted) return decision;
   if (isRelease(body)) return {};
   if (auto decision = gate::checkSituation(body, situation); !decision.accepted) return decision;
   if (std::holds_alternative<JogBase>(body) || std::holds_alternative<JogArm>(body)) {
@@ -137,7 +160,8 @@ GateDecision CommandGate::checkFreshness(const ReceivedCommand& received, Stamp 
   return {};
 }
 
-GateDecision CommandGate::checkValues(const CommandBody& body) const {
+GateDecision CommandGate::checkValues(const CommandBody& body,
+                                      const GateSituation& situation) const {
   const double v = config_.max_jog_speed_mps;
   const double w = config_.max_jog_rate_radps;
   if (const auto* jog = std::get_if<JogBase>(&body)) {
@@ -154,22 +178,20 @@ GateDecision CommandGate::checkValues(const CommandBody& body) const {
       if (!decision.accepted) return decision;
     }
   }
-  if (const auto* pump = std::get_if<HoldPump>(&body)) {
-    return firstRefusal({checkNumber(pump->left, 0.0, 1.0, "left pump duty", ""),
-                         checkNumber(pump->right, 0.0, 1.0, "right pump duty", "")});
+  if (const auto* hold = std::get_if<HoldActuator>(&body); hold && !isRelease(body)) {
+    const ActuatorSpec* spec =
+        situation.mission ? situation.mission->actuator(hold->name) : nullptr;
+    if (!spec) return refuse("no_such_actuator", fmt::format("the robot has no '{}'", hold->name));
+    return checkNumber(hold->value, spec->low, spec->high, hold->name, "");
   }
+  if (const auto* command = std::get_if<MissionCommand>(&body))
+    return checkMissionCommand(*command, situation);
   if (const auto* pose = std::get_if<SetPose>(&body)) {
     const double reach = config_.arena_reach_m;
     return firstRefusal(
         {checkNumber(pose->X_map_base.x_m, -reach, reach, "x of the pose", "m"),
          checkNumber(pose->X_map_base.y_m, -reach, reach, "y of the pose", "m"),
          checkNumber(pose->X_map_base.yaw_rad, -kMaxYaw_rad, kMaxYaw_rad, "yaw", "rad")});
-  }
-  if (const auto* nudge = std::get_if<NudgePlace>(&body)) {
-    const double reach = config_.max_nudge_m, turn = config_.max_nudge_deg * M_PI / 180.0;
-    return firstRefusal({checkNumber(nudge->by.x_m, -reach, reach, "nudge along x", "m"),
-                         checkNumber(nudge->by.y_m, -reach, reach, "nudge along y", "m"),
-                         checkNumber(nudge->by.yaw_rad, -turn, turn, "nudge in yaw", "rad")});
   }
   if (const auto* scale = std::get_if<SetSpeedScale>(&body)) {
     return checkNumber(scale->scale, 0.0, 1.0, "speed scale", "");

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "common/config/config_archive.h"
+#include "common/model/mission.h"
 #include "common/model/status.h"
 #include "robot/safety/operator_peer.h"
 #include "robot/safety/replay_filter.h"
@@ -22,6 +23,7 @@ struct GateSituation {
   std::string not_ready_reason;  ///< the first failing check, in words
   bool base_moving = false;      ///< measured
   bool anything_held = false;    ///< a hold-to-run setpoint is alive
+  const MissionInfo* mission = nullptr;  ///< whose commands and actuators there are
   double view_age_s =
       1e9;  ///< newest camera picture or cloud that left for the operator; no view = large
 };
@@ -39,10 +41,11 @@ struct GateDecision {
 /// mode and preconditions: they only ever stop.
 ///
 /// Codes: viewer no_lease old_lease replayed out_of_order bad_number too_many_clients too_old
-/// in_future not_finite out_of_range mission_running moving stopped wrong_mode not_ready
-/// already_running not_running not_paused position_lost not_stopped newer_stop still_held
-/// no_protective_stop protective_stop stale_view link_slow; press_over comes from the authority.
-/// Confined to the mission thread; its only memory is the nonces.
+/// in_future not_finite out_of_range no_such_command no_such_actuator bad_arguments mission_running
+/// moving stopped wrong_mode not_ready already_running not_running not_paused position_lost
+/// not_stopped newer_stop still_held no_protective_stop protective_stop stale_view link_slow;
+/// press_over comes from the authority. Confined to the mission thread; its only memory is the
+/// nonces.
 class CommandGate {
  public:
   struct Config {
@@ -59,8 +62,6 @@ class CommandGate {
     double max_jog_speed_mps = 4.0;  ///< beyond this a jog is an error, not a wish to clamp
     double max_jog_rate_radps = 3.2;
     double arena_reach_m = 200.0;  ///< no pose is set further from the origin of map than this
-    double max_nudge_m = 0.5;      ///< a fire place that is off by more was configured wrongly
-    double max_nudge_deg = 30.0;
     void visit(ConfigArchive& a);
   };
   explicit CommandGate(Config config) : config_(config) {}
@@ -72,7 +73,8 @@ class CommandGate {
   [[nodiscard]] GateDecision checkSender(const ReceivedCommand& received,
                                          const LeaseStatus& lease) const;
   [[nodiscard]] GateDecision checkFreshness(const ReceivedCommand& received, Stamp now);
-  [[nodiscard]] GateDecision checkValues(const CommandBody& body) const;
+  [[nodiscard]] GateDecision checkValues(const CommandBody& body,
+                                         const GateSituation& situation) const;
   [[nodiscard]] GateDecision checkJog(const ReceivedCommand& received,
                                       const GateSituation& situation) const;
 

@@ -13,8 +13,8 @@ std::string_view toString(HoldKind kind) {
       return "base jog";
     case HoldKind::ArmJog:
       return "arm jog";
-    case HoldKind::Pump:
-      return "pump";
+    case HoldKind::Actuator:
+      return "actuator";
     case HoldKind::Macro:
       return "macro";
   }
@@ -24,7 +24,7 @@ std::string_view toString(HoldKind kind) {
 std::optional<HoldKind> holdKind(const CommandBody& body) {
   if (std::holds_alternative<JogBase>(body)) return HoldKind::BaseJog;
   if (std::holds_alternative<JogArm>(body)) return HoldKind::ArmJog;
-  if (std::holds_alternative<HoldPump>(body)) return HoldKind::Pump;
+  if (std::holds_alternative<HoldActuator>(body)) return HoldKind::Actuator;
   if (std::holds_alternative<HoldMacro>(body)) return HoldKind::Macro;
   return std::nullopt;
 }
@@ -35,8 +35,7 @@ bool isRelease(const CommandBody& body) {
     return jog->twist.vx_mps == 0.0 && jog->twist.vy_mps == 0.0 && jog->twist.wz_radps == 0.0;
   }
   if (const auto* jog = std::get_if<JogArm>(&body)) return jog->velocity.isZero(0.0);
-  if (const auto* pump = std::get_if<HoldPump>(&body))
-    return pump->left == 0.0 && pump->right == 0.0;
+  if (const auto* actuator = std::get_if<HoldActuator>(&body)) return actuator->value == 0.0;
   if (const auto* macro = std::get_if<HoldMacro>(&body)) return macro->name.empty();
   return false;
 }

@@ -13,7 +13,7 @@
 namespace kiln {
 
 /// What runs only while it is held.
-enum class HoldKind : std::uint8_t { BaseJog, ArmJog, Pump, Macro };
+enum class HoldKind : std::uint8_t { BaseJog, ArmJog, Actuator, Macro };
 inline constexpr std::size_t kHoldKinds = 4;
 [[nodiscard]] std::string_view toString(HoldKind kind);
 /// nullopt for anything that is not a hold-to-run setpoint (ReleaseAll included).

@@ -78,10 +78,10 @@ struct SituationRule {
       return refuse("moving", "the robot moves; wait for standstill, then set its pose");
     return {};
   }
-  GateDecision operator()(const NudgePlace&) const { return {}; }
-  GateDecision operator()(const ContinueDespite&) const {
-    if (now.stop_latched) return refuseStopped();
-    if (!live())
+  GateDecision operator()(const MissionCommand& b) const {
+    const CommandSpec* spec = now.mission ? now.mission->command(b.name) : nullptr;
+    if (now.stop_latched && !(spec && spec->while_stopped)) return refuseStopped();
+    if (spec && spec->needs_live && !live())
       return refuse("not_running", "no mission is running; there is nothing to go on with");
     return {};
   }
@@ -91,7 +91,9 @@ struct SituationRule {
     if (decision.accepted && now.protective_stop) return refuseProtective();
     return decision;
   }
-  GateDecision operator()(const HoldPump&) const { return byHand("pumps by hand"); }
+  GateDecision operator()(const HoldActuator& b) const {
+    return byHand((b.name + " by hand").c_str());
+  }
   GateDecision operator()(const HoldMacro&) const {
     if (now.stop_latched) return refuseStopped();
     if (now.mode != Mode::Teleop) return wrongMode("macros", "Teleop");

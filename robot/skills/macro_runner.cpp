@@ -39,13 +39,15 @@ std::vector<MacroInfo> MacroRunner::list() const {
     MacroInfo info;
     info.name = macro.name;
     info.doc = macro.doc;
+    double water_l = 0.0;
     for (const MacroStep& step : macro.steps) {
       const bool timed = step.action == "spray" || step.action == "wait";
       info.duration_s += timed ? step.seconds : config_.arm_step_s;
       if (step.action == "spray") {
-        info.water_l += 2.0 * config_.flow_lpm / 60.0 * step.duty * step.seconds;
+        water_l += 2.0 * config_.flow_lpm / 60.0 * step.duty * step.seconds;
       }
     }
+    if (water_l > 0.0) info.uses = fmt::format("est. {:.1f} l", water_l);
     info.start_condition =
         macro.place.empty()
             ? "anywhere"

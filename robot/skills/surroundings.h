@@ -5,7 +5,7 @@
 
 #include "common/geom/pose.h"
 #include "common/model/obstacle_cloud.h"
-#include "common/model/place_check.h"
+#include "common/wire/fire/place_check.h"
 
 namespace kiln {
 

@@ -101,13 +101,13 @@ TEST(KilnctlProgram, EverySignalIsARelease) {
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
     const TempFolder folder;
     LinkedRobot robot(folder.endpoint());
-    Kilnctl ctl(folder.endpoint(), {"pump", "1", "1"});
-    ASSERT_TRUE(tickUntil(robot, [&] { return countOf<HoldPump>(robot) >= 3; })) << number;
+    Kilnctl ctl(folder.endpoint(), {"hold", "pumps", "1"});
+    ASSERT_TRUE(tickUntil(robot, [&] { return countOf<HoldActuator>(robot) >= 3; })) << number;
     ctl.signal(number);
     ASSERT_TRUE(tickUntil(robot, [&] { return ctl.ended(); })) << number;
     EXPECT_EQ(ctl.exitCode(), 0) << number;
     EXPECT_EQ(countOf<ReleaseAll>(robot), 3) << number;
-    EXPECT_THAT(robot.released, ::testing::ElementsAre(HoldKind::Pump)) << number;
+    EXPECT_THAT(robot.released, ::testing::ElementsAre(HoldKind::Actuator)) << number;
   }
 }
 

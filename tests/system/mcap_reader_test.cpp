@@ -10,8 +10,11 @@
 
 #include "common/record/record_reader.h"
 #include "common/record/run_topics.h"
+#include "common/wire/fire/codec/fire_codec.h"
+#include "common/wire/fire/fire_view.h"
 #include "common/wire/fsm.h"
 #include "common/wire/localization.h"
+#include "common/wire/mission.h"
 #include "common/wire/sensor.h"
 #include "common/wire/telemetry.h"
 #include "common/wire/world.h"
@@ -80,7 +83,7 @@ std::string record(const std::string& folder) {
   fsm.state = "AimHose";
   Scene scene;
   scene.planned.waypoints_map = {{1, 2, 0.5}};
-  const std::vector<MacroInfo> macros{{"spray", "", 3, 0.5, ""}};
+  const std::vector<MacroInfo> macros{{"spray", "", 3, "", "est. 0.5 l"}};
   const LogBatch log{{{clock.now(), 2, "mission", "started"}, {clock.now(), 4, "arm", "stopped"}},
                      0};
   LocalizationStatus where;
@@ -115,7 +118,8 @@ std::string record(const std::string& folder) {
     recorder.tap().published(
         Topic::Cloud, [&points] { return wire::encode(points, 0.005); }, clock.now());
     publish(recorder, Topic::Thermal, thermal);
-    publish(recorder, Topic::Heat, heat);
+    publish(recorder, Topic::MissionStream, wire::encodeDetail(heat));
+    publish(recorder, Topic::MissionInfo, fire::missionInfo(0.5, 30.0));
     publish(recorder, Topic::HeadCamera, head);
     publish(recorder, Topic::OperatorCamera, operator_camera);
     recorder.tap().command({"client", "Ann", 1, 1, clock.now(), 0, StartMission{}}, clock.now());

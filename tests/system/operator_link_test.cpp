@@ -157,11 +157,11 @@ TEST(OperatorLink, ForgottenKeyIsARelease) {
   LinkedOperator op(operatorConfig(folder.endpoint(), "anna"));
   ASSERT_TRUE(takeControl(robot, op));
   const std::uint64_t press = op.session->press();
-  op.session->hold(HoldPump{1.0, 1.0}, press);  // once, and never again: a hung window
-  ASSERT_TRUE(
-      tickUntil(robot, [&] { return robot.authority.held(HoldKind::Pump, robot.clock.now()); }));
-  ASSERT_TRUE(
-      tickUntil(robot, [&] { return !robot.authority.held(HoldKind::Pump, robot.clock.now()); }));
+  op.session->hold(HoldActuator{"pumps", 1.0}, press);  // once, and never again: a hung window
+  ASSERT_TRUE(tickUntil(
+      robot, [&] { return robot.authority.held(HoldKind::Actuator, robot.clock.now()); }));
+  ASSERT_TRUE(tickUntil(
+      robot, [&] { return !robot.authority.held(HoldKind::Actuator, robot.clock.now()); }));
 }
 
 TEST(OperatorLink, DeadClientIsAReleaseAndLosesTheLease) {

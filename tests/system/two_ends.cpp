@@ -30,6 +30,7 @@ LinkedRobot::LinkedRobot(const std::string& endpoint, std::string version, std::
   link = std::move(*opened);
   base_situation.mode = Mode::Teleop;
   base_situation.view_age_s = 0.1;
+  this->mission.actuators = {{kPumps, "Both pumps"}};
 }
 
 void LinkedRobot::tick() {
@@ -46,6 +47,7 @@ void LinkedRobot::tick() {
 
 GateSituation LinkedRobot::situation(Stamp) const {
   GateSituation found = base_situation;
+  found.mission = &mission;
   found.stop_latched = stop.latched();
   found.stop_generation = stop.generation();
   found.stop_source = stop.source();

@@ -49,6 +49,7 @@ class LinkedRobot : public Authority::Handler {
   StopLatch stop;
   std::unique_ptr<OperatorLink> link;
   Authority authority{Authority::Config{}};
+  MissionInfo mission;                        ///< actuators: the pumps
   GateSituation base_situation;               ///< but for STOP
   std::vector<Authority::Accepted> accepted;  ///< everything that passed
   std::vector<HoldKind> released;             ///< every dead-man edge

@@ -28,7 +28,7 @@ MacroRow::MacroRow(const Ui& ui, MacroInfo macro, QWidget* parent)
 
 QString MacroRow::summary(const MacroInfo& macro) {
   QStringList parts{tr("%1 s").arg(macro.duration_s, 0, 'f', 0)};
-  if (macro.water_l > 0.0) parts << tr("est. %1 l").arg(macro.water_l, 0, 'f', 1);
+  if (!macro.uses.empty()) parts << QString::fromStdString(macro.uses);
   if (!macro.start_condition.empty()) parts << QString::fromStdString(macro.start_condition);
   return parts.join(QStringLiteral(" · "));
 }

@@ -1,10 +1,9 @@
 #include "gui/views/macros/macros_tile.h"
 
-#include <QButtonGroup>
 #include <QHBoxLayout>
 #include <QScrollArea>
-#include <QToolButton>
 #include <algorithm>
+#include <utility>
 
 #include "gui/views/teleop/dead_man.h"
 #include "gui/widgets/text.h"
@@ -12,14 +11,14 @@
 namespace kiln::gui {
 namespace {
 
-constexpr int kPumpWidth_px = 124, kPumpHeight_px = 120, kListMin_px = 86, kNoteLines = 2;
+constexpr int kListMin_px = 86, kNoteLines = 2;
 
 bool sameMacros(const std::vector<MacroRow*>& rows, const std::vector<MacroInfo>& macros) {
   return std::equal(rows.begin(), rows.end(), macros.begin(), macros.end(),
                     [](const MacroRow* row, const MacroInfo& m) {
                       return row->macro().name == m.name &&
                              row->macro().duration_s == m.duration_s &&
-                             row->macro().water_l == m.water_l &&
+                             row->macro().uses == m.uses &&
                              row->macro().start_condition == m.start_condition;
                     });
 }
@@ -27,17 +26,11 @@ bool sameMacros(const std::vector<MacroRow*>& rows, const std::vector<MacroInfo>
 }  // namespace
 
 MacrosTile::MacrosTile(const Ui& ui, HoldToRun& hold, QWidget* parent)
-    : Tile(ui, tr("Macros and water"), parent),
-      ui_(ui),
-      hold_(hold),
-      models_(hold.models()),
-      water_(new WaterGauge(ui)) {
+    : Tile(ui, tr("Macros"), parent), ui_(ui), hold_(hold), models_(hold.models()) {
   auto* content = new QWidget;
-  auto* column = new QVBoxLayout(content);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(6);
-  auto* row = new QHBoxLayout;
-  row->setSpacing(8);
+  column_ = new QVBoxLayout(content);
+  column_->setContentsMargins(0, 0, 0, 0);
+  column_->setSpacing(6);
   auto* macros = new QWidget;
   list_ = new QVBoxLayout(macros);
   list_->setContentsMargins(0, 0, 0, 0);
@@ -55,11 +48,8 @@ MacrosTile::MacrosTile(const Ui& ui, HoldToRun& hold, QWidget* parent)
   note_ = new Label;
   note_->setWordWrap(true);
   note_->setAlignment(Qt::AlignTop | Qt::AlignLeft);
-  row->addWidget(scroll, 1);
-  row->addWidget(makePump());
-  column->addLayout(row, 1);
-  column->addWidget(note_);
-  column->addWidget(water_);
+  column_->addWidget(scroll, 1);
+  column_->addWidget(note_);
   setContent(content);
   new DeadMan(hold_, *this);
   connect(&hold_, &HoldToRun::tripped, this, [this](const QString&) {
@@ -75,66 +65,16 @@ MacrosTile::MacrosTile(const Ui& ui, HoldToRun& hold, QWidget* parent)
 
 MacrosTile::~MacrosTile() { letGo(); }
 
+void MacrosTile::setHands(QWidget* panel) {
+  delete std::exchange(hands_, panel);
+  if (hands_) column_->addWidget(hands_);
+}
+
 void MacrosTile::letGo() {
-  pump_->cancel();
   for (MacroRow* macro : rows_) {
     macro->cancel();
     macro->restart().cancel();
   }
-}
-
-QWidget* MacrosTile::makePump() {
-  auto* box = new QWidget;
-  box->setFixedWidth(kPumpWidth_px);
-  auto* column = new QVBoxLayout(box);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(4);
-  pump_ = new HoldButton(ui_, tr("PUMP"), 0.0);
-  pump_->setFocusPolicy(
-      Qt::TabFocus);  // a click leaves the keyboard with the jog keys: spray while aiming
-  pump_->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Expanding);
-  pump_->setMaximumHeight(kPumpHeight_px);
-  connect(pump_, &HoldButton::engaged, this, &MacrosTile::beginPump);
-  connect(pump_, &HoldButton::disengaged, this, &MacrosTile::endPump);
-  sides_ = new QButtonGroup(this);
-  auto* row = new QHBoxLayout;
-  row->setSpacing(2);
-  const QString names[] = {tr("both"), tr("left"), tr("right")};
-  for (int i = 0; i < 3; ++i) {
-    auto* button = new QToolButton;
-    button->setText(names[i]);
-    button->setCheckable(true);
-    button->setAutoRaise(true);
-    button->setFocusPolicy(Qt::NoFocus);
-    sides_->addButton(button, i);
-    row->addWidget(button, 1);
-  }
-  connect(sides_, &QButtonGroup::idClicked, this, [this](int id) {
-    which_ = static_cast<Pumps>(id);
-    if (pump_->isEngaged() && !hold_.hold(HoldKind::Pump, pumpSetpoint())) pump_->cancel();
-    restyle();
-  });
-  column->addWidget(pump_, 1);
-  column->addLayout(row);
-  column->addStretch(0);
-  return box;
-}
-
-HoldPump MacrosTile::pumpSetpoint() const {
-  return {which_ == Pumps::Right ? 0.0 : 1.0, which_ == Pumps::Left ? 0.0 : 1.0};
-}
-
-void MacrosTile::beginPump() {
-  const RobotStatus* status = models_.status.status();
-  sprayed_before_l_ = status ? status->water.sprayed_l_est : 0.0;
-  spray_began_ = ui_.clock.now();
-  if (!hold_.hold(HoldKind::Pump, pumpSetpoint())) pump_->cancel();
-  refreshPump();
-}
-
-void MacrosTile::endPump() {
-  hold_.release(HoldKind::Pump);
-  refreshPump();
 }
 
 void MacrosTile::rebuildRows() {
@@ -165,7 +105,7 @@ void MacrosTile::addRow(const MacroInfo& macro) {
   rows_.push_back(row);
 }
 
-void MacrosTile::refreshMacros() {
+void MacrosTile::refresh() {
   if (!sameMacros(rows_, models_.macros.macros())) rebuildRows();
   // What a silent robot was doing is not known any more.
   const bool heard = models_.status.ageLevel() != AgeLevel::Red;
@@ -186,46 +126,11 @@ void MacrosTile::refreshMacros() {
   setTip(*note_, note_->text());
 }
 
-void MacrosTile::refreshPump() {
-  const RobotStatus* status = models_.status.status();
-  const QString why = hold_.lock(HoldKind::Pump);
-  pump_->setKind(pump_->isEngaged() ? ActKind::Manual : ActKind::Normal);
-  pump_->setEnabled(why.isEmpty());
-  setTip(*pump_,
-         why.isEmpty()
-             ? tr("sprays while held; the robot cuts the pumps 0.2 s after the last sign of life")
-             : why);
-  if (pump_->isEngaged() && status) {
-    pump_->setSubtext(tr("est. %1 l · %2 s")
-                          .arg(status->water.sprayed_l_est - sprayed_before_l_, 0, 'f', 2)
-                          .arg(toSeconds(ui_.clock.now() - spray_began_), 0, 'f', 1));
-  } else {
-    pump_->setSubtext(why.isEmpty() ? tr("hold to spray") : tr("locked"));
-  }
-}
-
-void MacrosTile::refresh() {
-  refreshMacros();
-  refreshPump();
-  const RobotStatus* status = models_.status.status();
-  water_->show(status ? status->water : WaterStatus{},
-               status && models_.status.ageLevel() != AgeLevel::Red);
-}
-
 void MacrosTile::restyle() {
   const Palette& p = ui_.theme.colors();
   note_->setFont(ui_.theme.font(TextRole::Small));
   note_->setFixedHeight(kNoteLines * note_->fontMetrics().lineSpacing());  // what is below stays
   note_->setStyleSheet(QStringLiteral("color: %1").arg(p.dim.name()));
-  for (QAbstractButton* button : sides_->buttons()) {
-    const bool on = sides_->id(button) == static_cast<int>(which_);
-    button->setChecked(on);
-    button->setFont(ui_.theme.font(TextRole::Small));
-    button->setStyleSheet(QStringLiteral("QToolButton { border: none; border-radius: 3px; padding: "
-                                         "2px 4px; color: %1; background: %2; }")
-                              .arg(on ? p.text.name() : p.dim.name(),
-                                   on ? p.raised.name() : QStringLiteral("transparent")));
-  }
   refresh();
 }
 

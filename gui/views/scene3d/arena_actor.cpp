@@ -17,11 +17,15 @@ constexpr double kWallHeight_m = 2.2;  // boxes that reach higher are building, 
 /// renderer spends its time on: three meshes in all, no lamp, no hidden faces.
 class ArenaActor final : public RebuiltActor {
  public:
-  explicit ArenaActor(vtkRenderer& renderer) : RebuiltActor(renderer, SceneLayer::Walls) {}
+  explicit ArenaActor(vtkRenderer& renderer) : RebuiltActor(renderer) {}
 
  protected:
-  void build(const SceneSnapshot& snapshot, Freshness freshness,
-             const SceneColors& colors) override {
+  [[nodiscard]] std::uint64_t revision(const SceneSnapshot& snapshot) const override {
+    return snapshot.layer(SceneLayer::Walls).revision;
+  }
+  void build(const SceneSnapshot& snapshot, const SceneColors& colors) override {
+    if (!snapshot.layer(SceneLayer::Walls).visible) return;
+    const Freshness freshness = snapshot.layer(SceneLayer::Walls).freshness;
     std::vector<PlacedBox> walls, furniture, all;
     for (const SceneBox& box : snapshot.arena) {
       const double top = box.X_map_box.translation().z() + box.half_extent.z();

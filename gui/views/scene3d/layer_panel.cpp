@@ -22,11 +22,17 @@ LayerPanel::LayerPanel(const Ui& ui, QWidget* parent) : QWidget(parent), ui_(ui)
 }
 
 QSize LayerPanel::sizeHint() const {
-  return {kWidth_px, 2 * kMargin_px + kRow_px * static_cast<int>(kSceneLayers)};
+  return {kWidth_px, 2 * kMargin_px + kRow_px * static_cast<int>(rows_.size())};
 }
 
 void LayerPanel::show(const SceneSnapshot& snapshot) {
-  layers_ = snapshot.layers;
+  rows_.clear();
+  for (std::size_t i = 0; i < kSceneLayers; ++i) {
+    const QByteArray label = tr(toString(static_cast<SceneLayer>(i))).toUtf8();
+    rows_.push_back({{"", label.toStdString()}, snapshot.layers[i]});
+  }
+  rows_.insert(rows_.end(), snapshot.mission_layers.begin(), snapshot.mission_layers.end());
+  if (size() != sizeHint()) resize(sizeHint());
   update();
 }
 
@@ -35,7 +41,7 @@ QRect LayerPanel::row(int index) const {
 }
 
 int LayerPanel::rowAt(const QPoint& p) const {
-  for (int i = 0; i < static_cast<int>(kSceneLayers); ++i)
+  for (int i = 0; i < static_cast<int>(rows_.size()); ++i)
     if (row(i).contains(p)) return i;
   return -1;
 }
@@ -50,8 +56,8 @@ void LayerPanel::paintEvent(QPaintEvent*) {
   painter.setBrush(ground);
   painter.drawRoundedRect(QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5), 4, 4);
   painter.setFont(ui_.theme.font(TextRole::Small));
-  for (int i = 0; i < static_cast<int>(kSceneLayers); ++i) {
-    const LayerState& layer = layers_[static_cast<std::size_t>(i)];
+  for (int i = 0; i < static_cast<int>(rows_.size()); ++i) {
+    const auto& [spec, layer] = rows_[static_cast<std::size_t>(i)];
     const QRect r = row(i);
     if (i == hovered_) painter.fillRect(r.adjusted(2, 0, -2, 0), p.raised);
     const bool shown = layer.visible;
@@ -64,8 +70,7 @@ void LayerPanel::paintEvent(QPaintEvent*) {
     painter.drawEllipse(QPointF(kMargin_px + kDot_px, r.center().y() + 1), kDot_px / 2.0,
                         kDot_px / 2.0);
     const QRect text = r.adjusted(kMargin_px + 2 * kDot_px + 2, 0, -kMargin_px, 0);
-    painter.drawText(text, Qt::AlignVCenter | Qt::AlignLeft,
-                     tr(toString(static_cast<SceneLayer>(i))));
+    painter.drawText(text, Qt::AlignVCenter | Qt::AlignLeft, QString::fromStdString(spec.label));
     const QString note = layer.freshness == Freshness::Missing ? tr("none")
                          : old ? tr("%1 s old").arg(layer.age_s, 0, 'f', 1)
                                : QString();
@@ -76,10 +81,14 @@ void LayerPanel::paintEvent(QPaintEvent*) {
 void LayerPanel::mousePressEvent(QMouseEvent* event) {
   const int index = rowAt(event->pos());
   if (index < 0) return;
-  LayerState& layer = layers_[static_cast<std::size_t>(index)];
+  auto& [spec, layer] = rows_[static_cast<std::size_t>(index)];
   layer.visible = !layer.visible;
   update();
-  emit toggled(static_cast<SceneLayer>(index), layer.visible);
+  if (index < static_cast<int>(kSceneLayers)) {
+    emit toggled(static_cast<SceneLayer>(index), layer.visible);
+  } else {
+    emit missionToggled(spec.id, layer.visible);
+  }
 }
 
 void LayerPanel::mouseMoveEvent(QMouseEvent* event) {

@@ -1,7 +1,8 @@
 #pragma once
 
 #include <QWidget>
-#include <array>
+#include <string>
+#include <vector>
 
 #include "gui/views/scene3d/scene_state.h"
 #include "gui/widgets/theme.h"
@@ -19,6 +20,7 @@ class LayerPanel : public QWidget {
 
  signals:
   void toggled(kiln::gui::SceneLayer layer, bool visible);
+  void missionToggled(const std::string& layer, bool visible);
 
  protected:
   void paintEvent(QPaintEvent* event) override;
@@ -30,7 +32,7 @@ class LayerPanel : public QWidget {
   [[nodiscard]] int rowAt(const QPoint& p) const;  ///< -1: none
   [[nodiscard]] QRect row(int index) const;
   Ui ui_;
-  std::array<LayerState, kSceneLayers> layers_{};
+  std::vector<MissionLayer> rows_;  ///< the robot's, then the mission's
   int hovered_ = -1;
 };
 

@@ -126,28 +126,6 @@ class DrivenPathActor final : public SceneActor {
   std::array<vtkSmartPointer<vtkActor>, 4> lines_;
 };
 
-/// Thin and dim while only predicted; thick and blue-white while water flows.
-class JetActor final : public SceneActor {
- public:
-  explicit JetActor(vtkRenderer& renderer) : line_(addLines(renderer, 1.0F)) {}
-
-  void update(const SceneSnapshot& snapshot, const SceneColors& colors) override {
-    const LayerState& layer = snapshot.layer(SceneLayer::Jet);
-    line_->SetVisibility(layer.visible && !snapshot.jet.points_map.empty());
-    const bool spraying = snapshot.jet.spraying;
-    setColor(*line_,
-             agedColor(spraying ? colors.jet : colors.jet_predicted, layer.freshness, colors));
-    line_->GetProperty()->SetLineWidth(spraying ? 4.0F : 1.0F);
-    if (revision_ == layer.revision) return;
-    revision_ = layer.revision;
-    setMesh(*line_, lineMesh({snapshot.jet.points_map}));
-  }
-
- private:
-  std::uint64_t revision_ = ~std::uint64_t{0};
-  vtkSmartPointer<vtkActor> line_;
-};
-
 }  // namespace
 
 std::unique_ptr<SceneActor> makeGridActor(vtkRenderer& renderer) {
@@ -158,9 +136,6 @@ std::unique_ptr<SceneActor> makePlannedPathActor(vtkRenderer& renderer) {
 }
 std::unique_ptr<SceneActor> makeDrivenPathActor(vtkRenderer& renderer) {
   return std::make_unique<DrivenPathActor>(renderer);
-}
-std::unique_ptr<SceneActor> makeJetActor(vtkRenderer& renderer) {
-  return std::make_unique<JetActor>(renderer);
 }
 
 }  // namespace kiln::gui

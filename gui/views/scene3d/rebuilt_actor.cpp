@@ -20,18 +20,17 @@ struct RebuiltActor::Meshes {
   std::vector<vtkSmartPointer<vtkActor>> actors;
 };
 
-RebuiltActor::RebuiltActor(vtkRenderer& renderer, SceneLayer layer)
-    : meshes_(std::make_unique<Meshes>(renderer)), layer_(layer) {}
+RebuiltActor::RebuiltActor(vtkRenderer& renderer) : meshes_(std::make_unique<Meshes>(renderer)) {}
 
 RebuiltActor::~RebuiltActor() = default;
 
 void RebuiltActor::update(const SceneSnapshot& snapshot, const SceneColors& colors) {
-  const LayerState& layer = snapshot.layer(layer_);
-  if (revision_ == layer.revision && dark_ == colors.dark) return;
-  revision_ = layer.revision;
+  const std::uint64_t now = revision(snapshot);
+  if (revision_ == now && dark_ == colors.dark) return;
+  revision_ = now;
   dark_ = colors.dark;
   meshes_->clear();
-  if (layer.visible) build(snapshot, layer.freshness, colors);
+  build(snapshot, colors);
 }
 
 vtkActor& RebuiltActor::add(vtkPolyData* mesh, Rgb color, const Eigen::Isometry3d& X) {

@@ -12,20 +12,20 @@ namespace kiln::gui {
 /// has changed.
 class RebuiltActor : public SceneActor {
  public:
-  RebuiltActor(vtkRenderer& renderer, SceneLayer layer);
+  explicit RebuiltActor(vtkRenderer& renderer);
   ~RebuiltActor() override;  ///< takes its meshes out of the renderer
   void update(const SceneSnapshot& snapshot, const SceneColors& colors) final;
 
  protected:
-  virtual void build(const SceneSnapshot& snapshot, Freshness freshness,
-                     const SceneColors& colors) = 0;
+  /// Counts changes of what build() draws.
+  [[nodiscard]] virtual std::uint64_t revision(const SceneSnapshot& snapshot) const = 0;
+  virtual void build(const SceneSnapshot& snapshot, const SceneColors& colors) = 0;
   /// Into the renderer, until the next build.
   vtkActor& add(vtkPolyData* mesh, Rgb color, const Eigen::Isometry3d& X);
 
  private:
   struct Meshes;
   std::unique_ptr<Meshes> meshes_;
-  const SceneLayer layer_;
   std::uint64_t revision_ = ~std::uint64_t{0};
   bool dark_ = true;
 };

@@ -29,7 +29,7 @@ Rgb colorOf(RobotPart::Role role, const SceneColors& c) {
     case RobotPart::Role::Body:
       return c.body;
     case RobotPart::Role::Tank:
-      return mix(c.body, c.jet, 0.35);
+      return mix(c.body, c.active, 0.35);
     case RobotPart::Role::Wheel:
       return c.wheel;
     case RobotPart::Role::Arm:
@@ -39,7 +39,7 @@ Rgb colorOf(RobotPart::Role role, const SceneColors& c) {
     case RobotPart::Role::Head:
       return c.head;
     case RobotPart::Role::Nozzle:
-      return c.jet;
+      return c.active;
   }
   return c.body;
 }

@@ -29,15 +29,13 @@ class SceneActor {
 [[nodiscard]] std::unique_ptr<SceneActor> makeArenaActor(vtkRenderer& renderer);
 [[nodiscard]] std::unique_ptr<SceneActor> makePlannedPathActor(vtkRenderer& renderer);
 [[nodiscard]] std::unique_ptr<SceneActor> makeDrivenPathActor(vtkRenderer& renderer);
-[[nodiscard]] std::unique_ptr<SceneActor> makePlacesActor(vtkRenderer& renderer);
-[[nodiscard]] std::unique_ptr<SceneActor> makeFireActor(vtkRenderer& renderer);
-[[nodiscard]] std::unique_ptr<SceneActor> makeJetActor(vtkRenderer& renderer);
+[[nodiscard]] std::unique_ptr<SceneActor> makeEstimateActor(vtkRenderer& renderer);
 
 /// The colour of a layer at its age: full, pale from 1.5 s, grey from 3 s.
 [[nodiscard]] Rgb agedColor(Rgb color, Freshness freshness, const SceneColors& colors);
 
 /// Factor by which the uncertainty is drawn larger so that it can be seen; 1 = true size. Labelled
 /// in the view.
-[[nodiscard]] double ellipsoidExaggeration(const FireEstimate& fire);
+[[nodiscard]] double ellipsoidExaggeration(const Eigen::Matrix3d& covariance);
 
 }  // namespace kiln::gui

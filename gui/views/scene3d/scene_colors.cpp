@@ -28,11 +28,11 @@ SceneColors darkSolids() {
   c.waypoint = rgbFromHex(0x8cc4dc);
   c.driven = {rgbFromHex(0xe4e8ea), rgbFromHex(0xb9a6d8), rgbFromHex(0x9ec7a0),
               rgbFromHex(0xd8b48c)};
-  c.place = rgbFromHex(0x9aa3aa);
-  c.fire = rgbFromHex(0xe6a23c);
-  c.fire_uncertainty = rgbFromHex(0xf2c56b);
-  c.jet = rgbFromHex(0xcfe8ff);
-  c.jet_predicted = rgbFromHex(0x6f9fc4);
+  c.done = rgbFromHex(0x9aa3aa);
+  c.target = rgbFromHex(0xe6a23c);
+  c.uncertainty = rgbFromHex(0xf2c56b);
+  c.active = rgbFromHex(0xcfe8ff);
+  c.predicted = rgbFromHex(0x6f9fc4);
   return c;
 }
 
@@ -56,11 +56,11 @@ SceneColors lightSolids() {
   c.waypoint = rgbFromHex(0x1f6f95);
   c.driven = {rgbFromHex(0x30363b), rgbFromHex(0x6b4fa0), rgbFromHex(0x2f7a3a),
               rgbFromHex(0x9a5b1c)};
-  c.place = rgbFromHex(0x6a737a);
-  c.fire = rgbFromHex(0xb86a00);
-  c.fire_uncertainty = rgbFromHex(0xd08a1c);
-  c.jet = rgbFromHex(0x2a78c0);
-  c.jet_predicted = rgbFromHex(0x6f9fc4);
+  c.done = rgbFromHex(0x6a737a);
+  c.target = rgbFromHex(0xb86a00);
+  c.uncertainty = rgbFromHex(0xd08a1c);
+  c.active = rgbFromHex(0x2a78c0);
+  c.predicted = rgbFromHex(0x6f9fc4);
   return c;
 }
 
@@ -78,6 +78,32 @@ SceneColors SceneColors::of(const Theme& theme) {
   c.panel = rgb(p.panel);
   c.panel_edge = rgb(p.border);
   return c;
+}
+
+Rgb SceneColors::item(ItemStyle style) const {
+  switch (style) {
+    case ItemStyle::Normal:
+      return text;
+    case ItemStyle::Configured:
+      return text_dim;
+    case ItemStyle::Sensed:
+      return sensed;
+    case ItemStyle::Planned:
+      return predicted;
+    case ItemStyle::Suspected:
+      return suspected;
+    case ItemStyle::Done:
+      return done;
+    case ItemStyle::Target:
+      return target;
+    case ItemStyle::Active:
+      return active;
+    case ItemStyle::Caution:
+      return caution;
+    case ItemStyle::Intent:
+      return intent;
+  }
+  return text;
 }
 
 }  // namespace kiln::gui

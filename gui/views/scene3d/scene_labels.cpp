@@ -4,25 +4,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
-
 #include "gui/views/scene3d/orbit_camera.h"
 #include "gui/views/scene3d/scene_actor.h"
 
 namespace kiln::gui {
 namespace {
 
-constexpr double kZeroCelsius_k = 273.15;
 constexpr int kPadding = 7, kOffset = 26;
 constexpr double kRing_px = 9.0;
 
 QColor qt(Rgb c, int alpha = 255) { return {c.r, c.g, c.b, alpha}; }
-
-double twoSigma_m(const Eigen::Matrix3d& covariance) {
-  if (!covariance.allFinite()) return std::nan("");
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance, Eigen::EigenvaluesOnly);
-  return 2.0 * std::sqrt(std::max(0.0, solver.eigenvalues().maxCoeff()));
-}
 
 QFont scaled(const QFont& base, double factor, bool bold) {
   QFont font = base;
@@ -31,10 +22,8 @@ QFont scaled(const QFont& base, double factor, bool bold) {
   return font;
 }
 
-/// A ring round the estimate: it would otherwise hide in the box behind whose opening it burns.
-void paintTarget(QPainter& painter, const QPointF& at, const SceneColors& colors,
-                 Freshness freshness) {
-  const QColor color = qt(agedColor(colors.fire, freshness, colors));
+/// A ring round the estimate: it would otherwise hide behind what stands before it.
+void paintTarget(QPainter& painter, const QPointF& at, const QColor& color) {
   painter.setBrush(Qt::NoBrush);
   painter.setPen(QPen(color, 2.0));
   painter.drawEllipse(at, kRing_px, kRing_px);
@@ -43,7 +32,7 @@ void paintTarget(QPainter& painter, const QPointF& at, const SceneColors& colors
 }
 
 /// A small card with a leader line to its anchor.
-void paintCard(QPainter& painter, const QPointF& anchor, const FireLabel& label,
+void paintCard(QPainter& painter, const QPointF& anchor, const ItemCard& label,
                const SceneColors& colors, const QSize& size) {
   const QFont title = scaled(painter.font(), 1.0, true),
               detail = scaled(painter.font(), 0.92, false);
@@ -72,23 +61,9 @@ void paintCard(QPainter& painter, const QPointF& anchor, const FireLabel& label,
       label.detail);
 }
 
-void paintPlaceNames(QPainter& painter, const SceneSnapshot& snapshot, const OrbitCamera& camera,
-                     const SceneColors& colors, const QSize& size) {
-  painter.setPen(qt(colors.text_dim));
-  for (const FirePlaceInfo& place : snapshot.places) {
-    const bool named_by_fire =
-        snapshot.layer(SceneLayer::Fire).visible &&
-        std::any_of(snapshot.fires.begin(), snapshot.fires.end(),
-                    [&](const FireEstimate& fire) { return fire.place == place.name; });
-    if (named_by_fire) continue;
-    const auto p =
-        camera.project(place.p_map + Eigen::Vector3d(0, 0, 0.5), size.width(), size.height());
-    if (!p) continue;
-    const QString name = QString::fromStdString(place.name) +
-                         (place.visited ? QStringLiteral(" · visited") : QString());
-    const double width = QFontMetricsF(painter.font()).horizontalAdvance(name);
-    painter.drawText(QPointF(p->x() - 0.5 * width, p->y()), name);
-  }
+void paintName(QPainter& painter, const QPointF& at, const QString& name) {
+  const double width = QFontMetricsF(painter.font()).horizontalAdvance(name);
+  painter.drawText(QPointF(at.x() - 0.5 * width, at.y()), name);
 }
 
 void paintGhostText(QPainter& painter, const SceneSnapshot& snapshot, const OrbitCamera& camera,
@@ -112,43 +87,34 @@ void paintGhostText(QPainter& painter, const SceneSnapshot& snapshot, const Orbi
 
 }  // namespace
 
-FireLabel fireLabel(const FireEstimate& fire) {
-  const QString name =
-      fire.place.empty() ? QStringLiteral("heat source") : QString::fromStdString(fire.place);
-  const double spread = twoSigma_m(fire.covariance);
-  const QString plus_minus =
-      std::isfinite(spread)
-          ? QStringLiteral("±%1 cm").arg(100.0 * spread, 0, 'f', spread < 0.0995 ? 1 : 0)
-          : QStringLiteral("± unknown");
-  FireLabel label;
-  label.title =
-      QStringLiteral("%1 · %2 m · %3").arg(name).arg(fire.range_m, 0, 'f', 2).arg(plus_minus);
-  label.detail = QStringLiteral("%1 °C peak, %2 views")
-                     .arg(fire.peak_k - kZeroCelsius_k, 0, 'f', 0)
-                     .arg(fire.views);
-  const double factor = ellipsoidExaggeration(fire);
-  if (factor > 1.0) label.detail += QStringLiteral(", 2σ drawn ×%1").arg(factor, 0, 'f', 0);
-  return label;
+ItemCard itemCard(const SceneItem& item) {
+  ItemCard card{QString::fromStdString(item.label), QString::fromStdString(item.detail)};
+  const double factor =
+      item.shape == SceneItem::Shape::Estimate ? ellipsoidExaggeration(item.covariance) : 1.0;
+  if (factor > 1.0) card.detail += QStringLiteral(", 2σ drawn ×%1").arg(factor, 0, 'f', 0);
+  return card;
 }
 
 void paintSceneLabels(QPainter& painter, const SceneSnapshot& snapshot, const OrbitCamera& camera,
                       const SceneColors& colors, const QSize& size) {
   const QFont base = painter.font();
   painter.setRenderHint(QPainter::Antialiasing);
-  if (snapshot.layer(SceneLayer::Places).visible) {
-    painter.setFont(scaled(base, 0.92, false));
-    paintPlaceNames(painter, snapshot, camera, colors, size);
-  }
-  painter.setFont(base);
-  if (snapshot.layer(SceneLayer::Fire).visible) {
-    for (const FireEstimate& fire : snapshot.fires) {
-      if (!fire.p_map.allFinite()) continue;
-      const auto p = camera.project(fire.p_map, size.width(), size.height());
-      painter.setFont(base);
-      if (!p) continue;
-      paintTarget(painter, {p->x(), p->y()}, colors, snapshot.layer(SceneLayer::Fire).freshness);
-      paintCard(painter, {p->x(), p->y()}, fireLabel(fire), colors, size);
+  for (const SceneItem& item : snapshot.items) {
+    const LayerState& layer = snapshot.layer(item.layer);
+    if (!layer.visible || item.label.empty()) continue;
+    const auto p = camera.project(item.X_map_item.translation(), size.width(), size.height());
+    if (!p) continue;
+    const QPointF at(p->x(), p->y());
+    if (item.detail.empty()) {
+      painter.setFont(scaled(base, 0.92, false));
+      painter.setPen(qt(colors.text_dim));
+      paintName(painter, at, QString::fromStdString(item.label));
+      continue;
     }
+    painter.setFont(base);
+    if (item.shape == SceneItem::Shape::Estimate)
+      paintTarget(painter, at, qt(agedColor(colors.item(item.style), layer.freshness, colors)));
+    paintCard(painter, at, itemCard(item), colors, size);
   }
   painter.setFont(base);
   paintGhostText(painter, snapshot, camera, colors, size);

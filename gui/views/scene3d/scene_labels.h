@@ -2,7 +2,7 @@
 
 #include <QString>
 
-#include "common/model/fire.h"
+#include "common/model/scene.h"
 
 class QPainter;
 class QSize;
@@ -13,14 +13,13 @@ class OrbitCamera;
 struct SceneColors;
 struct SceneSnapshot;
 
-/// "place 1 · 0.86 m · ±2 cm" over "127 °C peak, 31 views"; the second line also names any
-/// exaggeration of the drawn uncertainty. ± is two standard deviations along the worst axis.
-struct FireLabel {
+/// Label over detail; the second line also names any exaggeration of the drawn uncertainty.
+struct ItemCard {
   QString title, detail;
 };
-[[nodiscard]] FireLabel fireLabel(const FireEstimate& fire);
+[[nodiscard]] ItemCard itemCard(const SceneItem& item);
 
-/// Names of fires and places, and the age of what is stale, drawn over the picture.
+/// What the mission's items are called, and the age of what is stale, drawn over the picture.
 void paintSceneLabels(QPainter& painter, const SceneSnapshot& snapshot, const OrbitCamera& camera,
                       const SceneColors& colors, const QSize& size);
 

@@ -11,8 +11,6 @@
 namespace kiln::gui {
 namespace {
 
-constexpr double kBox_m = 0.4;     // acrylic box of a fire place (scenario.md section 3)
-constexpr double kRecess_m = 0.1;  // of the plate behind the box's face
 constexpr double kGround_m = 0.02;
 constexpr double kLeastShown_m = 0.05;  // smaller uncertainties hide under the robot
 constexpr double kHalfLength_m = 0.95,
@@ -49,50 +47,25 @@ std::vector<Eigen::Vector3d> closed(const Eigen::Isometry3d& X, double x0, doubl
   return out;
 }
 
-/// The front frame of a place (place_check.h) from its configured plate.
-Eigen::Isometry3d frontOf(const FirePlaceInfo& place) {
-  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
-  X.linear() = Eigen::AngleAxisd(place.yaw_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-  X.translation() = place.p_map + X.linear().col(0) * kRecess_m;
-  return X;
-}
-
-/// The box behind a front: upper and lower rim, uprights, and the opening's direction.
-void paintBox(const Sheet& s, const Eigen::Isometry3d& X) {
-  const double h = 0.5 * kBox_m;
-  for (const double z : {-h, h}) s.line(closed(X, -kBox_m, 0.0, -h, h, z));
-  for (const double x : {-kBox_m, 0.0}) {
-    for (const double y : {-h, h})
-      s.line({X * Eigen::Vector3d(x, y, -h), X * Eigen::Vector3d(x, y, h)});
-  }
-  s.line({X * Eigen::Vector3d(0, 0, 0), X * Eigen::Vector3d(0.25, 0, 0)});
-}
-
-/// The paper's figure: a red rectangle on the ground where it may burn; grey once visited.
-void paintSuspected(const Sheet& s) {
-  const LayerState& layer = s.snapshot.layer(SceneLayer::Places);
-  if (!layer.visible) return;
-  for (const FirePlaceInfo& place : s.snapshot.places) {
-    Eigen::Isometry3d X = frontOf(place);
-    X.translation().z() = kGround_m;
-    s.pen(qt(agedColor(place.visited ? s.colors.place : s.colors.suspected, layer.freshness,
-                       s.colors)),
-          place.visited ? 1.5 : 2.5);
-    s.line(closed(X, -kBox_m, 0.0, -0.5 * kBox_m, 0.5 * kBox_m, 0.0));
+void paintItem(const Sheet& s, const SceneItem& item) {
+  if (item.shape == SceneItem::Shape::Polyline) return s.line(item.points);
+  if (item.shape != SceneItem::Shape::Box) return;
+  const Eigen::Isometry3d& X = item.X_map_item;
+  const Eigen::Vector3d h = 0.5 * item.size;
+  for (const double z : {-h.z(), h.z()}) s.line(closed(X, -h.x(), h.x(), -h.y(), h.y(), z));
+  for (const double x : {-h.x(), h.x()}) {
+    for (const double y : {-h.y(), h.y()})
+      s.line({X * Eigen::Vector3d(x, y, -h.z()), X * Eigen::Vector3d(x, y, h.z())});
   }
 }
 
-void paintChecks(const Sheet& s) {
-  const LayerState& layer = s.snapshot.layer(SceneLayer::Places);
-  if (!layer.visible) return;
-  for (const PlaceCheck& check : s.snapshot.place_checks) {
-    s.pen(qt(s.colors.text_dim), 1.2, Qt::DashLine);
-    paintBox(s, check.X_map_configured);
-    if (!check.X_map_sensed) continue;
-    const bool off = check.verdict == PlaceVerdict::Misplaced;
-    s.pen(off ? qt(s.colors.caution) : qt(s.colors.sensed, 150), off ? 2.5 : 1.2);
-    paintBox(s, *check.X_map_sensed);
-    s.line({check.X_map_configured.translation(), check.X_map_sensed->translation()});
+void paintItems(const Sheet& s) {
+  for (const SceneItem& item : s.snapshot.items) {
+    const LayerState& layer = s.snapshot.layer(item.layer);
+    if (!layer.visible) continue;
+    s.pen(qt(agedColor(s.colors.item(item.style), layer.freshness, s.colors)), item.width_px,
+          item.style == ItemStyle::Configured ? Qt::DashLine : Qt::SolidLine);
+    paintItem(s, item);
   }
 }
 
@@ -133,15 +106,10 @@ void paintRobotGhost(const Sheet& s, const Pose2& pose) {
   draw();
 }
 
-void paintNudgeGhost(const Sheet& s, const SceneIntent& intent) {
-  for (const FirePlaceInfo& place : s.snapshot.places) {
-    if (place.name != intent.place) continue;
-    FirePlaceInfo moved = place;
-    moved.p_map += Eigen::Vector3d(intent.nudge.x_m, intent.nudge.y_m, 0.0);
-    moved.yaw_rad += intent.nudge.yaw_rad;
-    s.pen(qt(s.colors.intent), 2.5);
-    paintBox(s, frontOf(moved));
-  }
+void paintGhosts(const Sheet& s, const std::vector<SceneItem>& ghosts) {
+  constexpr double kGhost_px = 2.5;
+  s.pen(qt(s.colors.intent), kGhost_px);
+  for (const SceneItem& item : ghosts) paintItem(s, item);
 }
 
 }  // namespace
@@ -150,10 +118,9 @@ void paintSceneOverlay(QPainter& painter, const SceneSnapshot& snapshot, const S
                        const OrbitCamera& camera, const SceneColors& colors, const QSize& size) {
   const Sheet sheet{painter, snapshot, camera, colors, size};
   painter.setRenderHint(QPainter::Antialiasing);
-  paintSuspected(sheet);
-  paintChecks(sheet);
+  paintItems(sheet);
   paintUncertainty(sheet);
-  if (!intent.place.empty()) paintNudgeGhost(sheet, intent);
+  paintGhosts(sheet, intent.items);
   if (intent.robot) paintRobotGhost(sheet, *intent.robot);
 }
 

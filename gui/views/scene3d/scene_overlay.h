@@ -1,9 +1,9 @@
 #pragma once
 
 #include <optional>
-#include <string>
+#include <vector>
 
-#include "common/geom/pose.h"
+#include "common/model/scene.h"
 
 class QPainter;
 class QSize;
@@ -16,13 +16,12 @@ struct SceneSnapshot;
 
 /// What the operator is about to do, drawn as ghosts.
 struct SceneIntent {
-  std::optional<Pose2> robot;  ///< where the robot is to be put
-  std::string place;           ///< that is to be moved
-  Pose2 nudge;                 ///< by this: (dx, dy) in map, yaw about its plate
+  std::optional<Pose2> robot;    ///< where the robot is to be put
+  std::vector<SceneItem> items;  ///< where things of the mission are to be put
 };
 
-/// Drawn over the picture, in 3D and from above alike: suspected fire places as red rectangles,
-/// configured and sensed boxes of a place, the robot's uncertainty, and the intent.
+/// Drawn over the picture, in 3D and from above alike, and so seen through everything: lines and
+/// boxes of the mission, the robot's uncertainty, and the intent.
 void paintSceneOverlay(QPainter& painter, const SceneSnapshot& snapshot, const SceneIntent& intent,
                        const OrbitCamera& camera, const SceneColors& colors, const QSize& size);
 

@@ -81,9 +81,7 @@ SceneRenderer::SceneRenderer(Config config, const RobotShape& shape)
   impl_->actors.push_back(makeCloudActor(renderer, config.point_budget));
   impl_->actors.push_back(makePlannedPathActor(renderer));
   impl_->actors.push_back(makeDrivenPathActor(renderer));
-  impl_->actors.push_back(makePlacesActor(renderer));
-  impl_->actors.push_back(makeFireActor(renderer));
-  impl_->actors.push_back(makeJetActor(renderer));
+  impl_->actors.push_back(makeEstimateActor(renderer));
 }
 
 SceneRenderer::~SceneRenderer() {

@@ -36,12 +36,6 @@ const char* toString(SceneLayer layer) {
       return "Planned path";
     case SceneLayer::Driven:
       return "Driven path";
-    case SceneLayer::Places:
-      return "Fire places";
-    case SceneLayer::Fire:
-      return "Fire estimate";
-    case SceneLayer::Jet:
-      return "Jet";
   }
   return "?";
 }
@@ -125,13 +119,24 @@ void SceneState::setScene(const Scene& scene) {
     touch(SceneLayer::Walls);
   }
   snapshot_.planned = scene.planned;
-  snapshot_.places = scene.places;
-  snapshot_.place_checks = scene.place_checks;
-  snapshot_.fires = scene.fires;
-  snapshot_.jet = scene.jet;
-  for (const SceneLayer l :
-       {SceneLayer::Planned, SceneLayer::Places, SceneLayer::Fire, SceneLayer::Jet})
-    touch(l);
+  snapshot_.items = scene.items;
+  touch(SceneLayer::Planned);
+  ++snapshot_.items_revision;
+}
+
+void SceneState::setMission(const MissionInfo& info) {
+  std::vector<MissionLayer> layers;
+  for (const LayerSpec& spec : info.layers) layers.push_back({spec, snapshot_.layer(spec.id)});
+  snapshot_.mission_layers = std::move(layers);
+  ++snapshot_.items_revision;
+}
+
+const LayerState& SceneSnapshot::layer(const std::string& mission_layer) const {
+  static const LayerState kShown;
+  const auto found =
+      std::find_if(mission_layers.begin(), mission_layers.end(),
+                   [&](const MissionLayer& row) { return row.spec.id == mission_layer; });
+  return found == mission_layers.end() ? kShown : found->state;
 }
 
 void SceneState::setLocalization(const LocalizationStatus& status) {
@@ -181,22 +186,44 @@ void SceneState::restart() {
   touch(SceneLayer::Driven);
 }
 
+Freshness SceneState::freshnessAt(double age_s) const {
+  return age_s < 0.0               ? Freshness::Missing
+         : age_s < config_.aging_s ? Freshness::Fresh
+         : age_s < config_.stale_s ? Freshness::Aging
+                                   : Freshness::Stale;
+}
+
 void SceneState::setAge(SceneLayer l, double age_s) {
   LayerState& state = layer(l);
   state.age_s = age_s;
-  const Freshness now = age_s < 0.0               ? Freshness::Missing
-                        : age_s < config_.aging_s ? Freshness::Fresh
-                        : age_s < config_.stale_s ? Freshness::Aging
-                                                  : Freshness::Stale;
+  const Freshness now = freshnessAt(age_s);
   if (now == state.freshness) return;
   state.freshness = now;
   touch(l);
+}
+
+void SceneState::setMissionAge(double age_s) {
+  for (MissionLayer& row : snapshot_.mission_layers) {
+    row.state.age_s = age_s;
+    const Freshness now = freshnessAt(age_s);
+    if (now == row.state.freshness) continue;
+    row.state.freshness = now;
+    ++snapshot_.items_revision;
+  }
 }
 
 void SceneState::setVisible(SceneLayer l, bool visible) {
   if (layer(l).visible == visible) return;
   layer(l).visible = visible;
   touch(l);
+}
+
+void SceneState::setVisible(const std::string& mission_layer, bool visible) {
+  for (MissionLayer& row : snapshot_.mission_layers) {
+    if (row.spec.id != mission_layer || row.state.visible == visible) continue;
+    row.state.visible = visible;
+    ++snapshot_.items_revision;
+  }
 }
 
 }  // namespace kiln::gui

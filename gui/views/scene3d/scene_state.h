@@ -12,9 +12,10 @@
 
 namespace kiln::gui {
 
-/// Walls: the nominal building. Map: points of the surfel map that the robot localises on.
-enum class SceneLayer { Robot, Lidar, Map, Walls, Planned, Driven, Places, Fire, Jet };
-inline constexpr std::size_t kSceneLayers = 9;
+/// The layers of every robot; missions add theirs (LayerSpec). Walls: the nominal building. Map:
+/// points of the surfel map that the robot localises on.
+enum class SceneLayer { Robot, Lidar, Map, Walls, Planned, Driven };
+inline constexpr std::size_t kSceneLayers = 6;
 [[nodiscard]] const char* toString(SceneLayer layer);  ///< what the operator reads
 
 /// Missing: never came. Aging and Stale: too old by the limits of console.md section 4.4.
@@ -25,6 +26,11 @@ struct LayerState {
   double age_s = -1.0;  ///< < 0: no data yet
   Freshness freshness = Freshness::Missing;
   std::uint64_t revision = 0;  ///< counts changes of the layer's content
+};
+
+struct MissionLayer {
+  LayerSpec spec;
+  LayerState state;
 };
 
 /// Everything that is drawn, as plain values; cheap to copy (clouds are shared). Frame: map.
@@ -44,17 +50,18 @@ struct SceneSnapshot {
   std::vector<SceneBox> arena;
   PathInfo planned;
   std::vector<std::vector<Eigen::Vector2d>> driven;  ///< one line for each life between resets
-  std::vector<FirePlaceInfo> places;
-  std::vector<PlaceCheck> place_checks;
-  std::vector<FireEstimate> fires;
-  JetPreview jet;
   std::array<LayerState, kSceneLayers> layers{};
+  std::vector<MissionLayer> mission_layers;
+  std::vector<SceneItem> items;
+  std::uint64_t items_revision = 0;  ///< counts changes of the items and of their layers
   [[nodiscard]] Eigen::Isometry3d robotPose() const {
     return toIsometry(X_map_base) * X_ground_base;
   }
   [[nodiscard]] const LayerState& layer(SceneLayer l) const {
     return layers[static_cast<std::size_t>(l)];
   }
+  /// Of an item; a layer that the mission has not told of is shown.
+  [[nodiscard]] const LayerState& layer(const std::string& mission_layer) const;
 };
 
 /// Gathers what the models deliver into one picture of the world, remembers the driven path and
@@ -76,6 +83,8 @@ class SceneState {
   /// understood; another frame is refused with a sentence in cloudRefusal().
   void setCloud(PointCloudPtr cloud);
   void setScene(const Scene& scene);
+  /// The layers of the mission; one that was there before stays shown or hidden.
+  void setMission(const MissionInfo& info);
   void setLocalization(const LocalizationStatus& status);
   void setMap(std::shared_ptr<const MapLayer> map);
   /// What the robot remembers of its way replaces what this station has seen of it.
@@ -84,7 +93,9 @@ class SceneState {
   void restart();
   /// @param age_s  since the data arrived; < 0: never.
   void setAge(SceneLayer layer, double age_s);
+  void setMissionAge(double age_s);  ///< of all that the mission draws
   void setVisible(SceneLayer layer, bool visible);
+  void setVisible(const std::string& mission_layer, bool visible);
   [[nodiscard]] const std::string& cloudRefusal() const { return cloud_refusal_; }
   [[nodiscard]] const SceneSnapshot& snapshot() const { return snapshot_; }
   [[nodiscard]] const RobotGeometry& geometry() const { return geometry_; }
@@ -98,6 +109,7 @@ class SceneState {
   void refreshSubmap();
   LayerState& layer(SceneLayer l) { return snapshot_.layers[static_cast<std::size_t>(l)]; }
   void touch(SceneLayer l);
+  [[nodiscard]] Freshness freshnessAt(double age_s) const;
   void extendTrail(const RobotStatus& status);
   void trimTrail();
   [[nodiscard]] const PoseAt* poseNear(Stamp stamp) const;

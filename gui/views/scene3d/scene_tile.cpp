@@ -5,17 +5,17 @@
 #include <QHBoxLayout>
 #include <QToolButton>
 #include <algorithm>
+#include <utility>
 
 #include "gui/views/scene3d/layer_panel.h"
 #include "gui/views/scene3d/localization_chip.h"
-#include "gui/views/scene3d/place_panel.h"
 #include "gui/views/scene3d/pose_panel.h"
 #include "gui/widgets/text.h"
 
 namespace kiln::gui {
 namespace {
 constexpr int kPanelOffset_px = 8;
-constexpr double kPlaceDistance_m = 7.0;  // the picture is then about four metres high
+constexpr double kSubjectDistance_m = 7.0;  // the picture is then about four metres high
 constexpr int kRoomForPanel_px = 640;  // in a smaller tile the list of layers would hide the robot
 
 QString pointsText(const PointCloudPtr& cloud) {
@@ -35,16 +35,23 @@ SceneTile::SceneTile(const Ui& ui, StationModels& models, RobotGeometry geometry
       layers_(new LayerPanel(ui, canvas_)),
       camera_buttons_(new QButtonGroup(this)),
       placer_(models),
-      nudge_(models),
       chip_(new LocalizationChip(ui, models.localization, canvas_)),
-      pose_panel_(new PosePanel(ui, placer_, canvas_)),
-      place_panel_(new PlacePanel(ui, models, nudge_, canvas_)) {
+      pose_panel_(new PosePanel(ui, placer_, canvas_)) {
   setContent(canvas_, true);
   canvas_->installEventFilter(this);
   layers_->move(kPanelOffset_px, kPanelOffset_px);
   addHeaderWidget(makeCameraButtons());
   connect(layers_, &LayerPanel::toggled, this, [this](SceneLayer layer, bool visible) {
     state_.setVisible(layer, visible);
+    refresh();
+  });
+  connect(layers_, &LayerPanel::missionToggled, this,
+          [this](const std::string& layer, bool visible) {
+            state_.setVisible(layer, visible);
+            refresh();
+          });
+  connect(&models_.mission, &Model::changed, this, [this] {
+    state_.setMission(models_.mission.info());
     refresh();
   });
   connect(canvas_, &SceneCanvas::cameraModeChanged, this, &SceneTile::markCameraButton);
@@ -67,20 +74,37 @@ SceneTile::SceneTile(const Ui& ui, StationModels& models, RobotGeometry geometry
   connect(canvas_, &SceneCanvas::groundPressed, &placer_, &PosePlacer::press);
   connect(canvas_, &SceneCanvas::groundDragged, &placer_, &PosePlacer::drag);
   connect(&placer_, &PosePlacer::changed, this, &SceneTile::watchPlacing);
-  connect(place_panel_, &PlacePanel::refreshed, this, [this] {
-    watchPlace();
-    takeIntent();
-    arrange();
-  });
   connect(chip_, &LocalizationChip::resized, this, &SceneTile::arrange);
-  connect(place_panel_, &PlacePanel::resized, this, &SceneTile::arrange);
   connect(&models_, &StationModels::aged, this, [this] {
     takeAges();
     chip_->refresh();
     refreshPoseButton();
     refresh();
   });
+  state_.setMission(models_.mission.info());
   refresh();
+}
+
+void SceneTile::addCard(SceneCard* card) {
+  cards_.push_back(card);
+  QToolButton* key = addTool(*card_keys_, card->keyText());
+  setTip(*key, card->keyTip());
+  connect(key, &QToolButton::clicked, card, &SceneCard::toggle);
+  connect(card, &QObject::destroyed, key, &QObject::deleteLater);
+  connect(card, &SceneCard::resized, this, &SceneTile::arrange);
+  connect(card, &SceneCard::refreshed, this, [this] {
+    watchCards();
+    takeIntent();
+    arrange();
+  });
+  markCameraButton();
+  arrange();
+}
+
+void SceneTile::removeCards() {
+  qDeleteAll(std::exchange(cards_, {}));
+  watchCards();
+  takeIntent();
 }
 
 void SceneTile::toggleLayerPanel() {
@@ -106,22 +130,27 @@ void SceneTile::takeIntent() {
   using Phase = PosePlacer::Phase;
   if (placer_.phase() == Phase::Placed || placer_.phase() == Phase::Sent)
     intent.robot = placer_.pose();
-  if (nudge_.hasWish() && place_panel_->isVisible()) {
-    intent.place = nudge_.selected().toStdString();
-    intent.nudge = nudge_.wish();
+  for (const SceneCard* card : cards_) {
+    const auto ghosts = card->isHidden() ? std::vector<SceneItem>{} : card->ghosts();
+    intent.items.insert(intent.items.end(), ghosts.begin(), ghosts.end());
   }
   canvas_->setIntent(intent);
 }
 
-/// An open card is worth nothing when its place is out of the picture or under the card.
-void SceneTile::watchPlace() {
-  const QString now = place_panel_->isHidden() ? QString() : nudge_.selected();
+/// An open card is worth nothing when what it tells of is out of the picture or under the card.
+void SceneTile::watchCards() {
+  std::optional<Eigen::Vector2d> now;
+  int card_px = 0;
+  for (const SceneCard* card : cards_) {
+    if (card->isHidden() || now) continue;
+    now = card->subject();
+    card_px = card->width();
+  }
   if (now == looked_at_) return;
-  if (looked_at_.isEmpty()) before_placing_ = canvas_->camera().mode();
+  if (!looked_at_) before_placing_ = canvas_->camera().mode();
   looked_at_ = now;
-  const FirePlaceInfo* place = nudge_.place(now);
-  if (place) {
-    canvas_->lookDownAt(place->p_map.head<2>(), kPlaceDistance_m, place_panel_->width() / 3);
+  if (now) {
+    canvas_->lookDownAt(*now, kSubjectDistance_m, card_px / 3);
   } else {
     canvas_->setCameraMode(before_placing_);
   }
@@ -154,19 +183,24 @@ void SceneTile::refreshPoseButton() {
 
 void SceneTile::arrange() {
   const QSize area = canvas_->size();
-  // In a low tile the card takes the whole right side, and the chip goes to the left of it.
-  const int beside = area.width() - place_panel_->width() - 3 * kPanelOffset_px;
+  // In a low tile a card takes the whole right side, and the chip goes to the left of it.
   chip_->setWidest(0);
-  const bool low = !place_panel_->isHidden() &&
-                   area.height() < chip_->height() + place_panel_->height() + 3 * kPanelOffset_px;
-  if (low) chip_->setWidest(beside);
+  bool low = false;
+  int bottom = area.height() - kPanelOffset_px;
+  for (SceneCard* card : cards_) {
+    if (card->isHidden()) continue;
+    const int beside = area.width() - card->width() - 3 * kPanelOffset_px;
+    card->move(area.width() - card->width() - kPanelOffset_px,
+               std::max(kPanelOffset_px, bottom - card->height()));
+    bottom = card->y() - kPanelOffset_px;
+    if (bottom >= chip_->height() + kPanelOffset_px) continue;
+    low = true;
+    chip_->setWidest(beside);
+  }
   chip_->move(low ? kPanelOffset_px : area.width() - chip_->width() - kPanelOffset_px,
               kPanelOffset_px);
   pose_panel_->move(std::max(kPanelOffset_px, (area.width() - pose_panel_->width()) / 2),
                     area.height() - pose_panel_->height() - kPanelOffset_px);
-  place_panel_->move(
-      area.width() - place_panel_->width() - kPanelOffset_px,
-      std::max(kPanelOffset_px, area.height() - place_panel_->height() - kPanelOffset_px));
 }
 
 bool SceneTile::eventFilter(QObject* watched, QEvent* event) {
@@ -190,9 +224,8 @@ void SceneTile::takeAges() {
       models_.scene.scene()
           ? (models_.scene.ageLevel() == AgeLevel::Red ? models_.scene.ageS() : status_s)
           : -1.0;
-  for (const SceneLayer l :
-       {SceneLayer::Planned, SceneLayer::Places, SceneLayer::Fire, SceneLayer::Jet})
-    state_.setAge(l, scene_s);
+  state_.setAge(SceneLayer::Planned, scene_s);
+  state_.setMissionAge(scene_s);
   state_.setAge(SceneLayer::Walls, models_.scene.scene() ? 0.0 : -1.0);  // nominal: does not age
   state_.setAge(SceneLayer::Map, models_.map.layer() ? 0.0 : -1.0);
 }
@@ -237,19 +270,11 @@ QWidget* SceneTile::makeCameraButtons() {
     camera_buttons_->addButton(button, static_cast<int>(b.mode));
     row->addWidget(button);
   }
-  const auto tool = [row](const QString& text) {
-    auto* button = new QToolButton;
-    button->setText(text);
-    button->setAutoRaise(true);
-    button->setFocusPolicy(Qt::NoFocus);
-    row->addWidget(button);
-    return button;
-  };
   row->insertSpacing(0, 6);
-  place_button_ = tool(tr("places"));
-  setTip(*place_button_, tr("fire places: configured against sensed, and to move one"));
-  connect(place_button_, &QToolButton::clicked, place_panel_, &PlacePanel::toggle);
-  pose_button_ = tool(tr("set pose"));
+  card_keys_ = new QHBoxLayout;
+  card_keys_->setSpacing(2);
+  row->addLayout(card_keys_);
+  pose_button_ = addTool(*row, tr("set pose"));
   pose_button_->setCheckable(true);
   connect(pose_button_, &QToolButton::clicked, this,
           [this] { placer_.active() ? placer_.cancel() : placer_.start(); });
@@ -258,6 +283,15 @@ QWidget* SceneTile::makeCameraButtons() {
   connect(&ui_.theme, &Theme::changed, this, &SceneTile::markCameraButton);
   markCameraButton();
   return bar;
+}
+
+QToolButton* SceneTile::addTool(QHBoxLayout& row, const QString& text) {
+  auto* button = new QToolButton;
+  button->setText(text);
+  button->setAutoRaise(true);
+  button->setFocusPolicy(Qt::NoFocus);
+  row.addWidget(button);
+  return button;
 }
 
 void SceneTile::markCameraButton() {
@@ -272,7 +306,10 @@ void SceneTile::markCameraButton() {
             .arg(on ? p.text.name() : p.dim.name(),
                  on ? p.raised.name() : QStringLiteral("transparent")));
   }
-  for (QToolButton* button : {place_button_, pose_button_}) {
+  std::vector<QToolButton*> tools{pose_button_};
+  for (int i = 0; i < card_keys_->count(); ++i)
+    tools.push_back(qobject_cast<QToolButton*>(card_keys_->itemAt(i)->widget()));
+  for (QToolButton* button : tools) {
     button->setFont(ui_.theme.font(TextRole::Small));
     button->setStyleSheet(
         QStringLiteral("QToolButton { border: 1px solid %3; padding: 0px 6px; border-radius: 3px;"

@@ -1,19 +1,19 @@
 #pragma once
 
-#include "gui/models/place_nudge.h"
 #include "gui/models/pose_placer.h"
 #include "gui/models/station_models.h"
 #include "gui/views/scene3d/scene_canvas.h"
+#include "gui/views/scene3d/scene_card.h"
 #include "gui/widgets/tile.h"
 
 class QButtonGroup;
+class QHBoxLayout;
 class QToolButton;
 
 namespace kiln::gui {
 
 class LayerPanel;
 class LocalizationChip;
-class PlacePanel;
 class PosePanel;
 
 /// The 3D scene as a tile, fed by the models.
@@ -25,12 +25,14 @@ class SceneTile : public Tile {
             QWidget* parent = nullptr);
   [[nodiscard]] SceneCanvas& canvas() { return *canvas_; }
   [[nodiscard]] const SceneState& state() const { return state_; }
+  /// A card over the scene, child of the canvas, with a key in the header.
+  void addCard(SceneCard* card);
+  void removeCards();
+  [[nodiscard]] const std::vector<SceneCard*>& cards() const { return cards_; }
   /// Shows or hides the list of layers.
   void toggleLayerPanel();
   [[nodiscard]] PosePlacer& posePlacer() { return placer_; }
-  [[nodiscard]] PlaceNudge& placeNudge() { return nudge_; }
   [[nodiscard]] PosePanel* posePanel() const { return pose_panel_; }
-  [[nodiscard]] PlacePanel* placePanel() const { return place_panel_; }
   [[nodiscard]] LocalizationChip* localizationChip() const { return chip_; }
 
  protected:
@@ -43,7 +45,7 @@ class SceneTile : public Tile {
   void takeMap();
   void takeIntent();
   void watchPlacing();
-  void watchPlace();
+  void watchCards();
   void arrange();
   void refreshPoseButton();
   void takeStatus();
@@ -51,6 +53,7 @@ class SceneTile : public Tile {
   void refresh();
   QWidget* makeCameraButtons();
   void markCameraButton();
+  QToolButton* addTool(QHBoxLayout& row, const QString& text);
 
   Ui ui_;
   StationModels& models_;
@@ -60,14 +63,14 @@ class SceneTile : public Tile {
   bool panel_chosen_ = false;  ///< the operator has shown or hidden it
   QButtonGroup* camera_buttons_;
   PosePlacer placer_;
-  PlaceNudge nudge_;
   LocalizationChip* chip_;
   PosePanel* pose_panel_;
-  PlacePanel* place_panel_;
-  QToolButton *pose_button_ = nullptr, *place_button_ = nullptr;
+  std::vector<SceneCard*> cards_;
+  QToolButton* pose_button_ = nullptr;
+  QHBoxLayout* card_keys_ = nullptr;
   OrbitCamera::Mode before_placing_ = OrbitCamera::Mode::Follow;
   bool placing_ = false;
-  QString looked_at_;  ///< the place that the camera was turned to; empty: none
+  std::optional<Eigen::Vector2d> looked_at_;  ///< subject that the camera was turned to
 };
 
 }  // namespace kiln::gui

@@ -153,31 +153,19 @@ void paintRobot(const Sheet& s, const RobotShape& shape) {
   s.painter.drawPolyline(arm);
 }
 
-void paintFires(const Sheet& s) {
-  s.painter.setBrush(Qt::NoBrush);
-  if (s.layer(SceneLayer::Places).visible) {
-    s.painter.setPen(QPen(s.color(s.colors.place, SceneLayer::Places), 1));
-    for (const FirePlaceInfo& place : s.snapshot.places)
-      s.painter.drawEllipse(s.at(place.p_map.x(), place.p_map.y()), 8, 8);
+void paintEstimates(const Sheet& s) {
+  for (const SceneItem& item : s.snapshot.items) {
+    const LayerState& layer = s.snapshot.layer(item.layer);
+    if (item.shape != SceneItem::Shape::Estimate || !layer.visible) continue;
+    const Rgb color = agedColor(s.colors.item(item.style), layer.freshness, s.colors);
+    s.painter.setPen(QPen(qt(color), 2));
+    s.painter.setBrush(qt(color, 90));
+    const double sigma =
+        std::sqrt(std::max(0.0, item.covariance.topLeftCorner<2, 2>().trace() / 2.0));
+    const double radius = std::max(4.0, s.pixels(2.0 * sigma));
+    const Eigen::Vector3d p = item.X_map_item.translation();
+    s.painter.drawEllipse(s.at(p.x(), p.y()), radius, radius);
   }
-  if (s.layer(SceneLayer::Fire).visible) {
-    for (const FireEstimate& fire : s.snapshot.fires) {
-      if (!fire.p_map.allFinite()) continue;
-      s.painter.setPen(QPen(s.color(s.colors.fire, SceneLayer::Fire), 2));
-      s.painter.setBrush(s.color(s.colors.fire, SceneLayer::Fire, 90));
-      const double sigma =
-          std::sqrt(std::max(0.0, fire.covariance.topLeftCorner<2, 2>().trace() / 2.0));
-      const double radius = std::max(4.0, s.pixels(2.0 * sigma));
-      s.painter.drawEllipse(s.at(fire.p_map.x(), fire.p_map.y()), radius, radius);
-    }
-  }
-  if (!s.layer(SceneLayer::Jet).visible) return;
-  QPolygonF jet;
-  for (const Eigen::Vector3d& p : s.snapshot.jet.points_map) jet << s.at(p.x(), p.y());
-  const bool spraying = s.snapshot.jet.spraying;
-  s.painter.setPen(QPen(s.color(spraying ? s.colors.jet : s.colors.jet_predicted, SceneLayer::Jet),
-                        spraying ? 4 : 1));
-  s.painter.drawPolyline(jet);
 }
 
 }  // namespace
@@ -192,7 +180,7 @@ void paintTopView(QPainter& painter, const SceneSnapshot& snapshot, const OrbitC
   paintCloud(sheet);
   paintPaths(sheet);
   paintRobot(sheet, shape);
-  paintFires(sheet);
+  paintEstimates(sheet);
 }
 
 }  // namespace kiln::gui

@@ -38,7 +38,7 @@ QString HoldToRun::lock(HoldKind kind) const {
     return mode == Mode::Teleop ? QString() : tr("needs Teleop mode");
   }
   if (!models_.mayJog(&why)) return why;
-  if (kind == HoldKind::Pump) return {};
+  if (kind == HoldKind::Actuator) return {};
   const double rtt_s = models_.link_state.health().rtt_s;
   if (rtt_s > config_.rtt_refused_s)
     return tr("link too slow to jog: round trip %1 ms, limit %2 ms")

@@ -10,11 +10,11 @@
 namespace kiln::gui {
 
 /// What can be held. Each kind has one setpoint stream.
-enum class HoldKind { Base, Arm, Pump, Macro };
+enum class HoldKind { Base, Arm, Actuator, Macro };
 
 /// The one place through which the operator's hand moves the robot: joins the holds of all views
-/// (sticks, keys, pump, macros), checks before and during each that it is allowed, and lets go of
-/// everything at once when it is not. One per station, shared by the views. GUI thread only.
+/// (sticks, keys, actuators, macros), checks before and during each that it is allowed, and lets go
+/// of everything at once when it is not. One per station, shared by the views. GUI thread only.
 ///
 /// A hold belongs to one press of its control: what ends it here or on the robot ends it for good,
 /// and only a new press moves something again. A hold is renewed from the GUI thread at 25 Hz, so

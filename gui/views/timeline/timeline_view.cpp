@@ -20,7 +20,6 @@ constexpr double kZoomStep = 1.3;
 constexpr double kMinSpan_s = 20.0;
 constexpr double kMaxSpan_s = 900.0;
 constexpr double kDefaultSpan_s = 180.0;
-constexpr double kKelvin = 273.15;
 }  // namespace
 
 TimelineView::TimelineView(const Ui& ui, StationModels& models, QWidget* parent)
@@ -51,21 +50,27 @@ void TimelineView::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   painter.setRenderHint(QPainter::Antialiasing);
   plot_ = QRectF(kLabel_px, 0, width() - kLabel_px - kRight_px, height() - kAxis_px);
-  const double h = plot_.height() / 5.0;
-  const auto row = [&](int i) {
-    return QRectF(plot_.left(), plot_.top() + i * h, plot_.width(), h).adjusted(0, 1, 0, -1);
+  std::vector<const FigureSpec*> plotted;
+  for (const FigureSpec& spec : models_.mission.info().figures)
+    if (spec.plot) plotted.push_back(&spec);
+  const double h = plot_.height() / (4.0 + static_cast<double>(plotted.size()));
+  int i = 0;
+  const auto row = [&](const QString& title) {
+    const QRectF area = QRectF(plot_.left(), plot_.top() + i++ * h, plot_.width(), h);
+    paintRowFrame(painter, {title, area.adjusted(0, 1, 0, -1)});
+    return area.adjusted(0, 1, 0, -1);
   };
-  const char* titles[] = {"State", "Commands", "Link ms", "Peak °C", "Arm force N"};
-  for (int i = 0; i < 5; ++i) paintRowFrame(painter, {tr(titles[i]), row(i)});
-  paintStates(painter, row(0));
-  paintCommandLane(painter, row(1), ui_.theme, models_.commands.commands(),
+  paintStates(painter, row(tr("State")));
+  paintCommandLane(painter, row(tr("Commands")), ui_.theme, models_.commands.commands(),
                    [this](Stamp t) { return xOf(t); });
-  paintLink(painter, row(2));
-  paintCurve(
-      painter, row(3),
-      {models_.trends.peakK(), p.plot_warm, 1.0, -kKelvin, 20.0, 60.0, QStringLiteral("°C")});
-  paintCurve(painter, row(4),
-             {models_.trends.armForceN(), p.plot_cool, 1.0, 0.0, 0.0, 20.0, QStringLiteral("N")});
+  paintLink(painter, row(tr("Link ms")));
+  for (const FigureSpec* spec : plotted) {
+    const QString unit = QString::fromStdString(spec->unit);
+    paintCurve(painter, row(QString::fromStdString(spec->label) + QLatin1Char(' ') + unit),
+               {models_.trends.figure(spec->id), p.plot_warm, spec->low, spec->high, unit});
+  }
+  paintCurve(painter, row(tr("Arm force N")),
+             {models_.trends.armForceN(), p.plot_cool, 0.0, 20.0, QStringLiteral("N")});
   paintAxis(painter, plot_);
   paintCursor(painter, plot_);
 }
@@ -169,7 +174,7 @@ void TimelineView::paintCurve(QPainter& painter, const QRectF& area, const Curve
   double low = curve.low;
   double high = curve.high;
   for (const auto& sample : curve.series) {
-    const double shown = sample.value * curve.scale + curve.shift;
+    const double shown = sample.value;
     const double x = xOf(sample.stamp);
     if (!std::isfinite(shown) || x < area.left() || x > area.right()) continue;
     low = std::min(low, shown);
@@ -185,7 +190,7 @@ void TimelineView::paintCurve(QPainter& painter, const QRectF& area, const Curve
       pen_down = false;
       continue;
     }
-    const double shown = sample.value * curve.scale + curve.shift;
+    const double shown = sample.value;
     const QPointF at(x, area.bottom() - 2 - (shown - low) / (high - low) * (area.height() - 4));
     if (pen_down && x - last_x < 0.05 * area.width())
       path.lineTo(at);
@@ -200,7 +205,7 @@ void TimelineView::paintCurve(QPainter& painter, const QRectF& area, const Curve
   if (curve.series.empty() || !std::isfinite(curve.series.back().value)) return;
   painter.setFont(ui_.theme.font(TextRole::Small));
   painter.setPen(ui_.theme.colors().dim);
-  const double newest = curve.series.back().value * curve.scale + curve.shift;
+  const double newest = curve.series.back().value;
   painter.drawText(QRectF(area.right() + 6, area.top(), kRight_px - 6, area.height()),
                    Qt::AlignVCenter | Qt::AlignLeft,
                    QString::number(std::lround(newest)) + QLatin1Char(' ') + curve.unit);

@@ -7,8 +7,8 @@
 
 namespace kiln::gui {
 
-/// States, commands, link, peak temperature and arm force on one time axis that ends now. Wheel
-/// zooms the span, drag leaves "follow" and looks back, a double click follows again.
+/// States, commands, link, the mission's plotted figures and arm force on one time axis that ends
+/// now. Wheel zooms the span, drag leaves "follow" and looks back, a double click follows again.
 class TimelineView : public QWidget {
   Q_OBJECT
  public:
@@ -43,8 +43,7 @@ class TimelineView : public QWidget {
   struct Curve {
     const TrendModel::Series& series;
     QColor color;
-    double scale = 1.0, shift = 0.0;  ///< shown = value * scale + shift
-    double low = 0.0, high = 1.0;     ///< least range of the axis
+    double low = 0.0, high = 1.0;  ///< least range of the axis
     QString unit;
   };
   void paintCurve(QPainter& painter, const QRectF& area, const Curve& curve) const;

@@ -20,8 +20,6 @@ constexpr int kRoomForAll_px = 1500;
 constexpr double kBatteryEmpty_v = 24.0;
 constexpr double kBatteryLow_v = 26.0;
 constexpr double kBatteryFull_v = 29.6;
-constexpr double kTanks_l = 10.0;
-constexpr double kWaterLow_l = 2.0;
 constexpr double kSlowLink_s = 0.150;
 constexpr double kVerySlowLink_s = 0.300;
 constexpr double kClockLow_s = 60.0;
@@ -31,6 +29,12 @@ QString clockText(double s) {
   return QStringLiteral("%1:%2")
       .arg(whole / 60, 2, 10, QLatin1Char('0'))
       .arg(whole % 60, 2, 10, QLatin1Char('0'));
+}
+/// Without the "est." that stands in the name.
+QString valueText(const FigureSpec& spec, double value) {
+  FigureSpec bare = spec;
+  bare.estimated = false;
+  return QString::fromStdString(figureText(bare, value));
 }
 }  // namespace
 
@@ -43,16 +47,13 @@ TopBar::TopBar(const Ui& ui, StationModels& models, QWidget* parent)
       link_(new Figure(ui, tr("Link"), QStringLiteral("8888 ms · 88 %"), this)),
       age_(new Figure(ui, tr("Data age"), QStringLiteral("8.88 s"), this)),
       battery_(new Figure(ui, tr("Battery"), QStringLiteral("88.8 V"), this)),
-      water_(new Figure(ui, tr("Water est."), QStringLiteral("88.8 l"), this)),
       clock_(new Figure(ui, tr("Mission clock"), QStringLiteral("88:88 / 88:88"), this)),
-      score_(new Figure(ui, tr("Score"), QStringLiteral("8.88"), this)),
       clear_(new HoldButton(ui, tr("Clear stop"), 1.0, this)),
       stop_note_(new StopNote(ui, models.stop, this)),
       stop_(new StopButton(ui, models.stop, this)) {
   setFixedHeight(kHeight_px);
   setMinimumWidth(kLeast_px);
   clock_->setRole(TextRole::Strong);
-  score_->setRole(TextRole::Strong);
   clear_->setSubtext(tr("hold 1 s"));
   clear_->setKind(ActKind::Caution);
   auto* row = new QHBoxLayout(this);
@@ -61,9 +62,8 @@ TopBar::TopBar(const Ui& ui, StationModels& models, QWidget* parent)
   row->addWidget(status_, 1);
   for (QWidget* widget :
        {static_cast<QWidget*>(lease_), static_cast<QWidget*>(link_), static_cast<QWidget*>(age_),
-        static_cast<QWidget*>(battery_), static_cast<QWidget*>(water_),
-        static_cast<QWidget*>(clock_), static_cast<QWidget*>(score_), static_cast<QWidget*>(clear_),
-        static_cast<QWidget*>(stop_)}) {
+        static_cast<QWidget*>(battery_), static_cast<QWidget*>(clock_),
+        static_cast<QWidget*>(clear_), static_cast<QWidget*>(stop_)}) {
     row->addWidget(widget);
   }
   QSizePolicy kept = clear_->sizePolicy();
@@ -79,8 +79,48 @@ TopBar::TopBar(const Ui& ui, StationModels& models, QWidget* parent)
     connect(model, &Model::changed, this, &TopBar::refresh);
   }
   connect(&models_, &StationModels::aged, this, &TopBar::refresh);
+  connect(&models_.mission, &Model::changed, this, &TopBar::makeMissionFigures);
   connect(&ui_.theme, &Theme::changed, this, qOverload<>(&QWidget::update));
+  makeMissionFigures();
+}
+
+void TopBar::makeMissionFigures() {
+  for (const MissionFigure& figure : mission_) delete figure.view;
+  mission_.clear();
+  auto* row = static_cast<QHBoxLayout*>(layout());
+  for (const FigureSpec& spec : models_.mission.info().figures) {
+    if (!spec.top_bar) continue;
+    const QString name = QString::fromStdString(spec.label) + (spec.estimated ? tr(" est.") : "");
+    const double widest = spec.high > spec.low ? spec.high : 8.8;
+    auto* view = new Figure(ui_, name, valueText(spec, widest), this);
+    setTip(*view, QString::fromStdString(spec.doc));
+    row->insertWidget(row->indexOf(clear_), view);
+    mission_.push_back({spec, view});
+  }
   refresh();
+  arrange();
+}
+
+QStringList TopBar::missionFigures() const {
+  QStringList out;
+  for (const MissionFigure& figure : mission_)
+    out << QString::fromStdString(figure.spec.label) + QLatin1Char(' ') + figure.view->value();
+  return out;
+}
+
+void TopBar::refreshMission(const RobotStatus& status, AgeLevel shown) {
+  for (const auto& [spec, view] : mission_) {
+    const kiln::Figure* figure = findFigure(status.figures, spec.id);
+    const double value = figure ? figure->value : NAN;
+    const bool caution = (spec.caution_below && value < *spec.caution_below) ||
+                         (spec.caution_above && value > *spec.caution_above);
+    view->set(valueText(spec, value),
+              shown == AgeLevel::Fresh && caution ? AgeLevel::Amber : shown);
+    if (spec.high > spec.low && std::isfinite(value))
+      view->setBar((value - spec.low) / (spec.high - spec.low));
+    else
+      view->setBar(std::nullopt);
+  }
 }
 
 void TopBar::refresh() {
@@ -93,8 +133,7 @@ void TopBar::refresh() {
   stop_note_->refresh();
   const RobotStatus* status = models_.status.status();
   if (!status) {
-    for (Figure* figure : {battery_, water_, clock_, score_})
-      figure->set(QStringLiteral("–"), AgeLevel::None);
+    for (Figure* figure : {battery_, clock_}) figure->set(QStringLiteral("–"), AgeLevel::None);
     return;
   }
   const AgeLevel shown = level == AgeLevel::Red ? AgeLevel::Red : AgeLevel::Fresh;
@@ -104,16 +143,13 @@ void TopBar::refresh() {
   battery_->set(QStringLiteral("%1 V").arg(status->battery_v, 0, 'f', 1),
                 judged(status->battery_v < kBatteryLow_v));
   battery_->setBar((status->battery_v - kBatteryEmpty_v) / (kBatteryFull_v - kBatteryEmpty_v));
-  const double litres = status->water.tank_l_est[0] + status->water.tank_l_est[1];
-  water_->set(QStringLiteral("%1 l").arg(litres, 0, 'f', 1), judged(litres < kWaterLow_l));
-  water_->setBar(litres / kTanks_l);
   const double left_s = status->mission_limit_s - status->mission_elapsed_s;
   clock_->set(clockText(status->mission_elapsed_s) + QStringLiteral(" / ") +
                   clockText(status->mission_limit_s),
               judged(left_s < kClockLow_s));
   clock_->setBar(status->mission_limit_s > 0 ? status->mission_elapsed_s / status->mission_limit_s
                                              : 0.0);
-  score_->set(QString::number(status->score_est, 'f', status->score_est < 10 ? 1 : 0), shown);
+  refreshMission(*status, shown);
 }
 
 void TopBar::refreshLink() {
@@ -147,7 +183,7 @@ void TopBar::refreshLink() {
 void TopBar::arrange() {
   const bool all = width() >= kRoomForAll_px;
   age_->setVisible(all);
-  score_->setVisible(all);
+  for (std::size_t i = 1; i < mission_.size(); ++i) mission_[i].view->setVisible(all);
   // Over figures that nobody knows while it is there, and never over the key.
   stop_note_->move(stop_->x() - stop_note_->width() - 2, stop_->y());
   stop_note_->raise();

@@ -4,13 +4,14 @@ namespace kiln {
 
 // The defaults of a mission that has nothing to say.
 
-Result<void> Mission::command(const CommandBody& body, const std::string&, Stamp) {
-  return makeError(ErrorCode::Refused, "this mission does not know {}", commandName(body));
+MissionInfo Mission::info() const { return {}; }
+Result<void> Mission::command(const MissionCommand& command, const std::string&, Stamp) {
+  return makeError(ErrorCode::Refused, "this mission does not know {}", command.name);
 }
 
 std::vector<MissionAlarm> Mission::alarms(Stamp) const { return {}; }
 std::vector<Check> Mission::checks(Stamp) const { return {}; }
-void Mission::describe(RobotStatus&, Stamp) const {}
+std::vector<Figure> Mission::figures(Stamp) const { return {}; }
 void Mission::describe(Scene&, Stamp) const {}
 void Mission::report(nlohmann::json&) const {}
 void Mission::onThermal(ThermalImagePtr) {}

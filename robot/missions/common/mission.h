@@ -44,15 +44,19 @@ class Mission {
   /// Length of the mission clock, s; 0: none.
   [[nodiscard]] virtual double limitS() const = 0;
 
-  /// A command of this mission (NudgePlace, ContinueDespite ...). Error: Refused or InvalidInput.
-  [[nodiscard]] virtual Result<void> command(const CommandBody& body,
+  /// What it brings to the station; fixed for its life. Who runs it adds its name and the run.
+  [[nodiscard]] virtual MissionInfo info() const;
+  /// A command that info() describes; the gate has judged it by that. Error: Refused or
+  /// InvalidInput.
+  [[nodiscard]] virtual Result<void> command(const MissionCommand& command,
                                              const std::string& operator_name, Stamp now);
   /// Raised now. @pre observe() was called in this tick.
   [[nodiscard]] virtual std::vector<MissionAlarm> alarms(Stamp now) const;
   /// Rows of the preflight that this mission adds.
   [[nodiscard]] virtual std::vector<Check> checks(Stamp now) const;
-  /// Adds its figures and what it draws.
-  virtual void describe(RobotStatus& status, Stamp now) const;
+  /// The values of info()'s figures.
+  [[nodiscard]] virtual std::vector<Figure> figures(Stamp now) const;
+  /// Adds what it draws.
   virtual void describe(Scene& scene, Stamp now) const;
   /// Adds its keys to the mission report.
   virtual void report(nlohmann::json& report) const;

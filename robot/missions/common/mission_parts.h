@@ -5,7 +5,7 @@
 
 #include "common/core/clock.h"
 #include "common/core/executor.h"
-#include "common/model/fire.h"
+#include "common/model/mission.h"
 #include "common/model/sensor.h"
 #include "common/robot_model/robot_geometry.h"
 #include "robot/control/pump_controller.h"
@@ -36,7 +36,7 @@ struct MissionParts {
   std::function<std::optional<Eigen::Isometry3d>(Stamp)> X_map_flange;
   /// To the stations and the recording.
   std::function<void(ThermalImagePtr)> publish_thermal;
-  std::function<void(HeatDetections)> publish_heat;
+  std::function<void(MissionDetail)> publish_detail;  ///< on the mission stream
 };
 
 }  // namespace kiln

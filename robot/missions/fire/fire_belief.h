@@ -9,7 +9,7 @@
 
 #include "common/core/error.h"
 #include "common/geom/pose.h"
-#include "common/model/fire.h"
+#include "common/wire/fire/fire_model.h"
 #include "robot/scene/arena_map.h"
 
 namespace kiln {

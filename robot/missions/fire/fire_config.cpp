@@ -101,6 +101,12 @@ void FireFaultConfig::visit(ConfigArchive& a) {
           "after the release of a protective stop");
 }
 
+void NudgeConfig::visit(ConfigArchive& a) {
+  a.field("max_m", max_m, "m", 0.0, 2.0,
+          "an operator moves a place at most this far at a time, each axis");
+  a.field("max_deg", max_deg, "deg", 0.0, 90.0, "and turns it at most this far");
+}
+
 void FireClockConfig::visit(ConfigArchive& a) {
   a.field("limit_s", limit_s, "s", 60.0, 3600.0, "mission clock");
   a.field("wrap_up_s", wrap_up_s, "s", 0.0, 300.0, "before its end: pumps off, arm parked");
@@ -115,6 +121,7 @@ void FireConfig::visit(ConfigArchive& a) {
   a.section("aim", aim, "bringing the nozzle to its spray pose");
   a.section("spray", spray, "water");
   a.section("faults", faults, "what is tried again");
+  a.section("nudge", nudge, "moving a place by hand");
   a.section("clock", clock, "mission clock");
 }
 

@@ -95,6 +95,13 @@ struct FireFaultConfig {
   void visit(ConfigArchive& a);
 };
 
+/// How far an operator may move a place at a time: one that is off by more was configured wrongly.
+struct NudgeConfig {
+  double max_m = 0.5;  ///< each axis
+  double max_deg = 30.0;
+  void visit(ConfigArchive& a);
+};
+
 struct FireClockConfig {
   double limit_s = 900.0;   ///< 15 min
   double wrap_up_s = 30.0;  ///< before it: stop the pumps, park the arm, end
@@ -111,6 +118,7 @@ struct FireConfig {
   FireAimConfig aim;
   FireSprayConfig spray;
   FireFaultConfig faults;
+  NudgeConfig nudge;
   FireClockConfig clock;
   void visit(ConfigArchive& a);
 };

@@ -7,12 +7,16 @@
 #include <nlohmann/json.hpp>
 
 #include "common/core/log.h"
+#include "common/wire/fire/codec/fire_codec.h"
+#include "common/wire/fire/fire_view.h"
 #include "robot/missions/fire/fire_machine.h"
 #include "robot/missions/fire/fire_report.h"
 #include "robot/skills/aim/jet.h"
 
 namespace kiln {
 namespace {
+
+constexpr double kPeakAge_s = 1.0;  ///< an older temperature is none
 
 /// States in which the arm is, or will be at the next step, near the place.
 bool worksAtPlace(const std::string& state) {
@@ -60,7 +64,9 @@ struct FireMission::Impl {
         report.addEstimate(heat->sweep().estimate(), result.detections.stamp, X_map_thermal);
       }
       devices.publish_thermal(result.image);
-      devices.publish_heat(std::move(result.detections));
+      peak_k = result.detections.usable ? result.detections.max_k : std::nan("");
+      peak_stamp = result.detections.stamp;
+      devices.publish_detail(wire::encodeDetail(result.detections));
     }
   }
 
@@ -73,6 +79,8 @@ struct FireMission::Impl {
   FireContext context;
   FireReport report;
   std::unique_ptr<Machine> machine;
+  double peak_k = std::nan("");  ///< of the newest image
+  Stamp peak_stamp;
 };
 
 FireMission::FireMission(const FireDevices& devices, const FireConfig& config,
@@ -136,13 +144,23 @@ Result<void> FireMission::restore(const nlohmann::json& saved) {
   return {};
 }
 
-Result<void> FireMission::command(const CommandBody& body, const std::string& operator_name,
+MissionInfo FireMission::info() const {
+  const NudgeConfig& nudge = impl_->context.config.nudge;
+  return fire::missionInfo(nudge.max_m, nudge.max_deg);
+}
+
+Result<void> FireMission::command(const MissionCommand& command, const std::string& operator_name,
                                   Stamp now) {
-  if (const auto* nudge = std::get_if<NudgePlace>(&body))
-    return nudgePlace(nudge->place, nudge->by);
-  if (const auto* despite = std::get_if<ContinueDespite>(&body))
-    return continueDespite(despite->subject, operator_name, now);
-  return Mission::command(body, operator_name, now);
+  if (command.name == fire::kContinueDespite)
+    return continueDespite(command.target, operator_name, now);
+  if (command.name != fire::kNudgePlace) return Mission::command(command, operator_name, now);
+  Pose2 by;
+  for (const auto& [name, value] : command.arguments) {
+    if (name == "x") by.x_m = value;
+    if (name == "y") by.y_m = value;
+    if (name == "yaw") by.yaw_rad = value * M_PI / 180.0;
+  }
+  return nudgePlace(command.target, by);
 }
 
 Result<void> FireMission::nudgePlace(const std::string& name, const Pose2& by) {
@@ -189,13 +207,6 @@ std::vector<PlaceCheck> FireMission::placeChecks() const {
   return out;
 }
 
-std::vector<FirePlaceInfo> FireMission::places() const {
-  std::vector<FirePlaceInfo> out;
-  for (const FirePlace& place : impl_->context.belief.places)
-    out.push_back({place.name, place.p_plate_map, place.facing_rad, place.visited, place.nudge});
-  return out;
-}
-
 std::vector<MissionAlarm> FireMission::alarms(Stamp now) const {
   std::vector<MissionAlarm> out;
   const FsmStatus fsm = impl_->machine->status(now);
@@ -213,27 +224,36 @@ std::vector<Check> FireMission::checks(Stamp now) const {
   return impl_->heat ? impl_->heat->checks(now) : std::vector<Check>{};
 }
 
-void FireMission::describe(RobotStatus& status, Stamp) const {
-  const PumpTracking water = impl_->context.devices.pumps.tracking();
-  status.water = {water.duty, water.current_a, water.tank_l_est, water.sprayed_l_est};
-  status.score_est = scoreEstimate(impl_->context.belief);
+std::vector<Figure> FireMission::figures(Stamp now) const {
+  const PumpTracking pumps = impl_->context.devices.pumps.tracking();
+  const bool known = toSeconds(now - impl_->peak_stamp) < kPeakAge_s;
+  return fire::figures({pumps.duty, pumps.current_a, pumps.tank_l_est, pumps.sprayed_l_est},
+                       scoreEstimate(impl_->context.belief), known ? impl_->peak_k : std::nan(""));
+}
+
+FireSite FireMission::site(Stamp now) const {
+  FireContext& c = impl_->context;
+  FireSite site;
+  site.stamp = now;
+  site.place_checks = placeChecks();
+  const FirePlace* current = c.belief.currentPlace();
+  for (const FirePlace& place : c.belief.places) {
+    site.places.push_back(
+        {place.name, place.p_plate_map, place.facing_rad, place.visited, place.nudge});
+    std::optional<FireEstimate> estimate = place.estimate;
+    if (&place == current && c.heat.listening()) estimate = c.estimate();
+    if (estimate) site.fires.push_back(*estimate);
+  }
+  site.spraying = c.devices.pumps.tracking().spraying;
+  if (const auto X_map_nozzle = c.X_map_nozzle())
+    site.jet_map = jetPoints(c.calibration, *X_map_nozzle, c.hasPlace() ? c.flowScale() : 1.0);
+  return site;
 }
 
 void FireMission::describe(Scene& scene, Stamp now) const {
-  FireContext& c = impl_->context;
-  scene.places = places();
-  scene.place_checks = placeChecks();
-  const FirePlace* current = c.belief.currentPlace();
-  for (const FirePlace& place : c.belief.places) {
-    std::optional<FireEstimate> estimate = place.estimate;
-    if (&place == current && c.heat.listening()) estimate = c.estimate();
-    if (estimate) scene.fires.push_back(*estimate);
-  }
-  scene.jet.stamp = now;
-  scene.jet.spraying = c.devices.pumps.tracking().spraying;
-  if (const auto X_map_nozzle = c.X_map_nozzle())
-    scene.jet.points_map =
-        jetPoints(c.calibration, *X_map_nozzle, c.hasPlace() ? c.flowScale() : 1.0);
+  const FireSite known = site(now);
+  scene.items = fire::sceneItems(known);
+  scene.detail = wire::encodeDetail(known);
 }
 
 void FireMission::report(nlohmann::json& report) const {

@@ -27,12 +27,12 @@ class FireMission final : public Mission {
   [[nodiscard]] Result<void> restore(const nlohmann::json& saved) override;
   [[nodiscard]] double limitS() const override;
 
-  /// NudgePlace and ContinueDespite.
-  [[nodiscard]] Result<void> command(const CommandBody& body, const std::string& operator_name,
-                                     Stamp now) override;
+  [[nodiscard]] MissionInfo info() const override;
+  [[nodiscard]] Result<void> command(const MissionCommand& command,
+                                     const std::string& operator_name, Stamp now) override;
   [[nodiscard]] std::vector<MissionAlarm> alarms(Stamp now) const override;
   [[nodiscard]] std::vector<Check> checks(Stamp now) const override;
-  void describe(RobotStatus& status, Stamp now) const override;
+  [[nodiscard]] std::vector<Figure> figures(Stamp now) const override;
   void describe(Scene& scene, Stamp now) const override;
   void report(nlohmann::json& report) const override;
   void onThermal(ThermalImagePtr image) override;
@@ -51,7 +51,7 @@ class FireMission final : public Mission {
   [[nodiscard]] FireBelief& belief();
   /// Newest comparison of each place, as configured and nudged, with the live cloud.
   [[nodiscard]] std::vector<PlaceCheck> placeChecks() const;
-  [[nodiscard]] std::vector<FirePlaceInfo> places() const;
+  [[nodiscard]] FireSite site(Stamp now) const;
 
  private:
   struct Impl;

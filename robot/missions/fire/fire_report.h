@@ -7,8 +7,8 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "common/geom/pose.h"
-#include "common/model/fire.h"
-#include "common/model/place_check.h"
+#include "common/wire/fire/fire_model.h"
+#include "common/wire/fire/place_check.h"
 
 namespace kiln {
 

@@ -6,9 +6,9 @@
 
 #include "common/core/bounded_queue.h"
 #include "common/core/executor.h"
-#include "common/model/fire.h"
 #include "common/model/sensor.h"
 #include "common/model/status.h"
+#include "common/wire/fire/fire_model.h"
 #include "robot/missions/fire/heat_localizer_sweep.h"
 #include "robot/perception/thermal/heat_detector.h"
 

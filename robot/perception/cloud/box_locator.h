@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "common/config/config_archive.h"
-#include "common/model/place_check.h"
+#include "common/wire/fire/place_check.h"
 #include "robot/perception/cloud/face_model.h"
 #include "robot/perception/cloud/scan_window.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "common/model/fire.h"
+#include "common/wire/fire/fire_model.h"
 #include "robot/perception/thermal/blob_segmenter.h"
 
 namespace kiln::thermal {

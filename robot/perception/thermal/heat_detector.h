@@ -3,8 +3,8 @@
 #include <memory>
 
 #include "common/config/config_archive.h"
-#include "common/model/fire.h"
 #include "common/model/sensor.h"
+#include "common/wire/fire/fire_model.h"
 
 namespace kiln {
 

@@ -5,8 +5,8 @@
 
 #include "common/config/config_archive.h"
 #include "common/geom/camera_model.h"
-#include "common/model/fire.h"
 #include "common/model/sensor.h"
+#include "common/wire/fire/fire_model.h"
 
 namespace kiln {
 

@@ -3,7 +3,7 @@
 #include <deque>
 #include <vector>
 
-#include "common/model/fire.h"
+#include "common/wire/fire/fire_model.h"
 #include "robot/perception/thermal/blob_segmenter.h"
 
 namespace kiln::thermal {

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "common/geom/pose.h"
-#include "common/model/fire.h"
+#include "common/wire/fire/fire_model.h"
 
 namespace kiln {
 

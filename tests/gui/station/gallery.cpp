@@ -10,6 +10,7 @@
 #include "gui/app/main_window.h"
 #include "gui/link/fake_link.h"
 #include "gui/link/replay_link.h"
+#include "gui/panels/fire/place_panel.h"
 #include "gui/views/scene3d/scene_renderer.h"
 #include "gui/views/scene3d/scene_tile.h"
 
@@ -122,7 +123,8 @@ void showFake(const Wanted& wanted) {
   desk.link.robot().setHealth(LocalizationHealth::Degraded);
   desk.pass(3.0);
   shot(desk.window, wanted, "4-after-reset-misplaced");
-  desk.window.sceneTile()->placeNudge().wishSensed();
+  for (SceneCard* card : desk.window.sceneTile()->cards())
+    if (auto* places = dynamic_cast<PlacePanel*>(card)) places->nudge().wishSensed();
   desk.window.sceneTile()->canvas().setCameraMode(OrbitCamera::Mode::Follow);
   desk.pass(1.0);
   shot(desk.window, wanted, "5-nudge");

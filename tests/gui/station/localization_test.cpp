@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
-#include "gui/models/place_nudge.h"
+#include "common/wire/fire/codec/fire_codec.h"
+#include "common/wire/fire/fire_view.h"
 #include "gui/models/pose_placer.h"
+#include "gui/panels/fire/place_nudge.h"
 #include "tests/gui/station/stepped_station.h"
 
 namespace kiln::gui {
@@ -99,15 +101,17 @@ struct MisplacedStation : SteppedStation {
   MisplacedStation() {
     pass(1.0);
     takeLease();
-    Scene scene;
-    scene.places = {{"place 1", {1, 2, 1}, 0.0, false, {}}, {"place 2", {3, 4, 1}, 0.0, false, {}}};
+    FireSite site;
+    site.places = {{"place 1", {1, 2, 1}, 0.0, false, {}}, {"place 2", {3, 4, 1}, 0.0, false, {}}};
     PlaceCheck check;
     check.place = "place 2";
     check.X_map_configured = toIsometry(Pose2{3, 4, 0});
     check.X_map_sensed = toIsometry(Pose2{3.16, 4.09, 0.05});
     check.offset_m = 0.184;
     check.verdict = PlaceVerdict::Misplaced;
-    scene.place_checks = {check};
+    site.place_checks = {check};
+    Scene scene;
+    scene.detail = wire::encodeDetail(site);
     emit link.scene(std::make_shared<const Scene>(scene));
     settle();
   }
@@ -130,13 +134,16 @@ TEST(PlaceNudge, TheSensedPlaceIsWishedAndSentOnce) {
   nudge.wishSensed();
   ASSERT_TRUE(nudge.hasWish());
   nudge.add(0.02, 0.0, 0.0);
-  EXPECT_EQ(lastSent<NudgePlace>(station), nullptr);
+  EXPECT_EQ(lastSent<MissionCommand>(station), nullptr);
   nudge.confirm();
-  const auto* sent = lastSent<NudgePlace>(station);
+  const auto* sent = lastSent<MissionCommand>(station);
   ASSERT_NE(sent, nullptr);
-  EXPECT_EQ(sent->place, "place 2");
-  EXPECT_NEAR(sent->by.x_m, 0.18, 1e-3) << "of the plate, 10 cm behind the front that was seen";
-  EXPECT_NEAR(sent->by.yaw_rad, 0.05, 1e-9);
+  EXPECT_EQ(sent->name, fire::kNudgePlace);
+  EXPECT_EQ(sent->target, "place 2");
+  ASSERT_EQ(sent->arguments.size(), 3u);
+  EXPECT_NEAR(sent->arguments[0].value, 0.18, 1e-3)
+      << "of the plate, 10 cm behind the front that was seen";
+  EXPECT_NEAR(sent->arguments[2].value, 0.05 * 180.0 / M_PI, 1e-9);
   station.settle();
   EXPECT_FALSE(nudge.hasWish());
   EXPECT_TRUE(nudge.refusal().isEmpty());
@@ -147,9 +154,9 @@ TEST(PlaceNudge, StaysWithinWhatTheRobotAccepts) {
   PlaceNudge nudge(station.models);
   emit station.models.scene.changed();
   for (int i = 0; i < 100; ++i) nudge.add(0.02, -0.02, 0.02);
-  EXPECT_EQ(nudge.wish().x_m, PlaceNudge::kMax_m);
-  EXPECT_EQ(nudge.wish().y_m, -PlaceNudge::kMax_m);
-  EXPECT_EQ(nudge.wish().yaw_rad, PlaceNudge::kMaxYaw_rad);
+  EXPECT_EQ(nudge.wish().x_m, 0.5);
+  EXPECT_EQ(nudge.wish().y_m, -0.5);
+  EXPECT_NEAR(nudge.wish().yaw_rad, 30.0 * M_PI / 180.0, 1e-12);
 }
 
 TEST(PlaceNudge, ARefusalKeepsTheWish) {

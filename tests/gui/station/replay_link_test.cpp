@@ -14,9 +14,9 @@
 #include "common/wire/sensor.h"
 #include "common/wire/telemetry.h"
 #include "gui/models/station_models.h"
+#include "gui/panels/fire/thermal_tile.h"
 #include "gui/views/camera/camera_tile.h"
 #include "gui/views/log/log_view.h"
-#include "gui/views/thermal/thermal_tile.h"
 
 namespace kiln::gui {
 namespace {

@@ -7,11 +7,15 @@
 #include <QTimer>
 #include <cstdio>
 
+#include "common/wire/fire/codec/fire_codec.h"
+#include "common/wire/fire/fire_view.h"
+#include "gui/panels/fire/place_panel.h"
+#include "gui/panels/fire/pump_panel.h"
+#include "gui/panels/fire/thermal_tile.h"
 #include "gui/views/camera/camera_tile.h"
 #include "gui/views/macros/macros_tile.h"
 #include "gui/views/scene3d/scene_tile.h"
 #include "gui/views/teleop/teleop_tile.h"
-#include "gui/views/thermal/thermal_tile.h"
 #include "tests/gui/views/sample_world.h"
 #include "tests/gui/views/scripted_link.h"
 
@@ -37,6 +41,7 @@ struct Gallery {
   SceneTile* scene;
   TeleopTile* teleop;
   MacrosTile* macros;
+  PumpPanel* pumps;
   QString folder;
   double t_s = 0.0;
   std::uint32_t frame = 0;
@@ -50,6 +55,9 @@ struct Gallery {
     scene = new SceneTile(ui, models, world.robot(), openGlAvailable());
     teleop = new TeleopTile(ui, hold);
     macros = new MacrosTile(ui, hold);
+    pumps = new PumpPanel(ui, hold);
+    macros->setHands(pumps);
+    scene->addCard(new PlacePanel(ui, models, &scene->canvas()));
     auto* grid = new QGridLayout(&window);
     grid->setContentsMargins(6, 6, 6, 6);
     grid->setSpacing(6);
@@ -67,6 +75,7 @@ struct Gallery {
     window.resize(1230, 640);
     window.show();
     window.activateWindow();
+    emit link.missionInfo(std::make_shared<MissionInfo>(world.mission()));
     emit link.macros(world.macros());
   }
 
@@ -84,8 +93,10 @@ struct Gallery {
     }
     status.macro = macro;
     if (spraying) {
-      status.water.duty = {1.0, 1.0};
-      status.water.current_a = {2.1, pump_dry ? 0.2 : 2.0};
+      WaterLevels water = world.water();
+      water.duty = {1.0, 1.0};
+      water.current_a = {2.1, pump_dry ? 0.2 : 2.0};
+      status.figures = fire::figures(water, 4.2, 273.15 + 127.0);
     }
     LinkHealth health;
     health.state = LinkState::Up;
@@ -96,7 +107,8 @@ struct Gallery {
     emit link.scene(std::make_shared<Scene>(world.scene(now, status, spraying)));
     const ThermalImagePtr image = world.thermal(now, ++frame);
     emit link.thermal(image);
-    emit link.heat(std::make_shared<HeatDetections>(world.heat(*image)));
+    emit link.missionStream(
+        std::make_shared<MissionDetail>(wire::encodeDetail(world.heat(*image))));
     if (camera) emit link.image(world.picture(now, frame));
     models.flush();
     emit models.aged();
@@ -141,12 +153,12 @@ int main(int argc, char** argv) {
   g.teleop->panel().setFocus();
   press(g.teleop->panel().drivePad(), {62, 22}, QEvent::MouseButtonPress);
   g.spraying = g.pump_dry = true;
-  press(g.macros->pump(), {40, 40}, QEvent::MouseButtonPress);
+  press(g.pumps->pump(), {40, 40}, QEvent::MouseButtonPress);
   g.feed(12);
   g.shot("teleop");
 
   press(g.teleop->panel().drivePad(), {62, 22}, QEvent::MouseButtonRelease);
-  press(g.macros->pump(), {40, 40}, QEvent::MouseButtonRelease);
+  press(g.pumps->pump(), {40, 40}, QEvent::MouseButtonRelease);
   g.macro = {"spray fire 1", 2, 5, "spray steady", 0.46, ""};
   g.pump_dry = false;
   g.feed(24, false);

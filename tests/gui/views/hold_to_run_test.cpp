@@ -6,7 +6,7 @@ namespace {
 using testing::Test;
 
 TEST_F(StationTest, EverythingMayBeHeldInTeleopWithLeaseAndAFreshView) {
-  for (const HoldKind kind : {HoldKind::Base, HoldKind::Arm, HoldKind::Pump, HoldKind::Macro})
+  for (const HoldKind kind : {HoldKind::Base, HoldKind::Arm, HoldKind::Actuator, HoldKind::Macro})
     EXPECT_EQ(hold.lock(kind), QString());
 }
 
@@ -14,7 +14,7 @@ TEST_F(StationTest, TheLockNamesItsReason) {
   status.mode = Mode::Autonomous;
   feed();
   EXPECT_TRUE(hold.lock(HoldKind::Base).contains("Teleop"));
-  EXPECT_TRUE(hold.lock(HoldKind::Pump).contains("Teleop"));
+  EXPECT_TRUE(hold.lock(HoldKind::Actuator).contains("Teleop"));
   EXPECT_TRUE(hold.lock(HoldKind::Macro).contains("Teleop"));
   status.mode = Mode::Teleop;
   status.lease.holder_client = "someone";
@@ -42,7 +42,7 @@ TEST_F(StationTest, AHoldBelongsToOnePressAndEndsWhereTheRobotEndedIt) {
 }
 
 TEST_F(StationTest, AWindowThatWasBusyLetsGoInsteadOfHoldingNothing) {
-  ASSERT_TRUE(hold.hold(HoldKind::Pump, HoldPump{1, 1}));
+  ASSERT_TRUE(hold.hold(HoldKind::Actuator, HoldActuator{"pumps", 1}));
   link.time.advanceBy(std::chrono::milliseconds(150));
   hold.renew();
   EXPECT_TRUE(hold.holding());
@@ -60,7 +60,7 @@ TEST_F(StationTest, ASlowLinkRefusesJogsAndWarnsBefore) {
   health.rtt_s = 0.64;
   feed();
   EXPECT_TRUE(hold.lock(HoldKind::Base).contains("640 ms"));
-  EXPECT_EQ(hold.lock(HoldKind::Pump), QString());  // spraying aims at nothing that moves
+  EXPECT_EQ(hold.lock(HoldKind::Actuator), QString());  // spraying aims at nothing that moves
 }
 
 TEST_F(StationTest, JogNeedsACloudOrAPictureOfTheLastHalfSecond) {
@@ -81,13 +81,13 @@ TEST_F(StationTest, JogNeedsACloudOrAPictureOfTheLastHalfSecond) {
 
 TEST_F(StationTest, ReleasingOneOfTwoHoldsLeavesTheOtherRunning) {
   ASSERT_TRUE(hold.hold(HoldKind::Arm, JogArm{JogFrame::Base, Vector6d::Constant(0.1)}));
-  ASSERT_TRUE(hold.hold(HoldKind::Pump, HoldPump{1, 1}));
+  ASSERT_TRUE(hold.hold(HoldKind::Actuator, HoldActuator{"pumps", 1}));
   hold.release(HoldKind::Arm);
   EXPECT_EQ(link.releases, 0);
   ASSERT_EQ(link.released.size(), 1u);
   EXPECT_TRUE(std::holds_alternative<JogArm>(link.released[0]));
-  EXPECT_TRUE(hold.holding(HoldKind::Pump));
-  hold.release(HoldKind::Pump);
+  EXPECT_TRUE(hold.holding(HoldKind::Actuator));
+  hold.release(HoldKind::Actuator);
   EXPECT_EQ(link.releases, 1);
   EXPECT_FALSE(hold.holding());
 }

@@ -7,6 +7,8 @@
 
 #include "common/config/resources.h"
 #include "common/geom/frames.h"
+#include "common/wire/fire/codec/fire_codec.h"
+#include "common/wire/fire/fire_view.h"
 
 namespace kiln::gui {
 namespace {
@@ -64,9 +66,22 @@ RobotStatus SampleWorld::status(Stamp stamp, double t_s) const {
   s.X_map_base = {work.x_m - 2.0 * ahead, work.y_m - 1.2 * ahead, 0.5 * ahead};
   s.arm.q << M_PI, -1.9 + 0.1 * std::sin(t_s), 1.7, -1.4, 90 * kDeg, M_PI;
   s.wheel_steer_rad = {0.5 * ahead, 0.5 * ahead, -0.3 * ahead, -0.3 * ahead};
-  s.water.tank_l_est = {3.4, 3.8};
-  s.water.sprayed_l_est = 2.84;
+  s.figures = fire::figures(water(), 4.2, 273.15 + 127.0);
   return s;
+}
+
+WaterLevels SampleWorld::water() const {
+  WaterLevels levels;
+  levels.tank_l_est = {3.4, 3.8};
+  levels.sprayed_l_est = 2.84;
+  return levels;
+}
+
+MissionInfo SampleWorld::mission() const {
+  MissionInfo info = fire::missionInfo(0.5, 30.0);
+  info.mission = "fire";
+  info.actuators = {{kPumps, "Both pumps"}};
+  return info;
 }
 
 PointCloudPtr SampleWorld::cloud(const RobotStatus& status, int columns) const {
@@ -98,9 +113,11 @@ Scene SampleWorld::scene(Stamp stamp, const RobotStatus& status, bool spraying) 
   Scene s;
   s.stamp = stamp;
   s.arena = boxes_;
+  FireSite site;
+  site.stamp = stamp;
   for (const FirePlaceConfig& place : arena_.fire_places) {
     const auto& p = place.plate_xyz_m;
-    s.places.push_back({place.name, {p[0], p[1], p[2]}, place.facing_deg * kDeg, false});
+    site.places.push_back({place.name, {p[0], p[1], p[2]}, place.facing_deg * kDeg, false});
   }
   for (const GroundPoseConfig& pose : arena_.entry_path)
     s.planned.waypoints_map.push_back(pose.pose());
@@ -110,13 +127,13 @@ Scene SampleWorld::scene(Stamp stamp, const RobotStatus& status, bool spraying) 
   s.planned.next = 3;
   FireEstimate fire;
   fire.stamp = stamp;
-  fire.place = s.places[0].name;
-  fire.p_map = s.places[0].p_map + Eigen::Vector3d(0.03, -0.04, 0.01);
+  fire.place = site.places[0].name;
+  fire.p_map = site.places[0].p_map + Eigen::Vector3d(0.03, -0.04, 0.01);
   fire.covariance = Eigen::Vector3d(1e-4, 2.5e-5, 2.5e-5).asDiagonal();
   fire.views = 31;
   fire.peak_k = 273.15 + 127.0;
   fire.range_m = 0.86;
-  s.fires.push_back(fire);
+  site.fires.push_back(fire);
   const Eigen::Vector3d exit = toIsometry(status.X_map_base) * robot_.X_base_flange(status.arm.q) *
                                robot_.X_flange_nozzle.pose().translation();
   const Eigen::Vector3d level(fire.p_map.x() - exit.x(), fire.p_map.y() - exit.y(), 0.0);
@@ -124,10 +141,12 @@ Scene SampleWorld::scene(Stamp stamp, const RobotStatus& status, bool spraying) 
   for (int i = 0; i <= 20; ++i) {
     const double t = flight_s * i / 20.0;
     const double up = (fire.p_map.z() - exit.z()) / flight_s + 0.5 * 9.81 * flight_s;
-    s.jet.points_map.push_back(exit + level * (t / flight_s) +
-                               Eigen::Vector3d(0, 0, up * t - 0.5 * 9.81 * t * t));
+    site.jet_map.push_back(exit + level * (t / flight_s) +
+                           Eigen::Vector3d(0, 0, up * t - 0.5 * 9.81 * t * t));
   }
-  s.jet.spraying = spraying;
+  site.spraying = spraying;
+  s.items = fire::sceneItems(site);
+  s.detail = wire::encodeDetail(site);
   return s;
 }
 
@@ -193,9 +212,11 @@ RgbImagePtr SampleWorld::picture(Stamp stamp, std::uint64_t seq) const {
 }
 
 std::vector<MacroInfo> SampleWorld::macros() const {
-  return {{"spray fire 1", "sprays at the configured first place", 18.0, 0.9, "start within 5 cm"},
-          {"spray fire 2", "sprays at the configured second place", 18.0, 0.9, "start within 5 cm"},
-          {"arm park", "folds the arm above the deck", 6.0, 0.0, ""}};
+  return {{"spray fire 1", "sprays at the configured first place", 18.0, "start within 5 cm",
+           "est. 0.9 l"},
+          {"spray fire 2", "sprays at the configured second place", 18.0, "start within 5 cm",
+           "est. 0.9 l"},
+          {"arm park", "folds the arm above the deck", 6.0, "", ""}};
 }
 
 }  // namespace kiln::gui

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "common/model/fire.h"
 #include "common/model/scene.h"
 #include "common/model/sensor.h"
 #include "common/model/status.h"
 #include "common/robot_model/robot_geometry.h"
+#include "common/wire/fire/fire_model.h"
 #include "robot/scene/arena_map.h"
 
 namespace kiln::gui {
@@ -18,6 +18,9 @@ class SampleWorld {
   [[nodiscard]] const RobotGeometry& robot() const { return robot_; }
   /// @param t_s  moves robot and arm along.
   [[nodiscard]] RobotStatus status(Stamp stamp, double t_s) const;
+  /// Tanks and pumps of that moment.
+  [[nodiscard]] WaterLevels water() const;
+  [[nodiscard]] MissionInfo mission() const;
   /// @param columns  rays a ring; 1800 gives about 28,800 points.
   [[nodiscard]] PointCloudPtr cloud(const RobotStatus& status, int columns) const;
   [[nodiscard]] Scene scene(Stamp stamp, const RobotStatus& status, bool spraying) const;

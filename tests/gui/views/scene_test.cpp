@@ -240,19 +240,34 @@ TEST(RobotShape, HasAPoseForEveryPartAndMovesHeadAndWheels) {
   EXPECT_LT((moved.back() * Eigen::Vector3d(0, 0, 0.5 * nozzle.size.z()) - exit).norm(), 1e-9);
 }
 
-TEST(FireLabel, StatesRangeSpreadPeakAndViews) {
-  FireEstimate fire;
-  fire.place = "place 1";
-  fire.range_m = 0.86;
-  fire.covariance =
+TEST(ItemCard, SaysThatAnUncertaintyIsDrawnLarger) {
+  SceneItem item;
+  item.shape = SceneItem::Shape::Estimate;
+  item.label = "place 1 · 0.86 m";
+  item.detail = "127 °C peak";
+  item.covariance =
       Eigen::Vector3d(1e-4, 2.5e-5, 2.5e-5).asDiagonal();  // 1 cm standard deviation at most
-  fire.peak_k = 273.15 + 127;
-  fire.views = 31;
-  EXPECT_EQ(fireLabel(fire).title, QString("place 1 · 0.86 m · ±2.0 cm"));
-  EXPECT_TRUE(fireLabel(fire).detail.startsWith("127 °C peak, 31 views"));
-  EXPECT_TRUE(fireLabel(fire).detail.contains("×4"));  // 2 cm drawn as 8 cm
-  fire.covariance.setConstant(NAN);
-  EXPECT_TRUE(fireLabel(fire).title.contains("± unknown"));
+  EXPECT_EQ(itemCard(item).title, QString("place 1 · 0.86 m"));
+  EXPECT_TRUE(itemCard(item).detail.startsWith("127 °C peak, "));
+  EXPECT_TRUE(itemCard(item).detail.contains("×4"));  // 2 cm drawn as 8 cm
+  item.covariance.setConstant(NAN);
+  EXPECT_EQ(itemCard(item).detail, QString("127 °C peak"));
+}
+
+TEST(SceneState, TheMissionsLayersComeAndGoAndStayHidden) {
+  Fixture f;
+  MissionInfo info;
+  info.layers = {{"a", "Layer A"}, {"b", "Layer B"}};
+  f.state.setMission(info);
+  EXPECT_TRUE(f.state.snapshot().layer("a").visible);
+  EXPECT_TRUE(f.state.snapshot().layer("unknown").visible) << "nothing of the robot's is lost";
+  f.state.setVisible("a", false);
+  f.state.setMissionAge(2.0);
+  EXPECT_EQ(f.state.snapshot().layer("b").freshness, Freshness::Aging);
+  info.layers = {{"a", "Layer A"}};
+  f.state.setMission(info);
+  EXPECT_FALSE(f.state.snapshot().layer("a").visible) << "as the operator left it";
+  EXPECT_EQ(f.state.snapshot().mission_layers.size(), 1U);
 }
 
 TEST_F(StationTest, TopViewDrawsTheRobotAndHidesALayer) {

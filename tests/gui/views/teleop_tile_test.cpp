@@ -2,6 +2,7 @@
 
 #include <QLineEdit>
 
+#include "gui/panels/fire/pump_panel.h"
 #include "gui/views/macros/macros_tile.h"
 #include "tests/gui/views/station_fixture.h"
 
@@ -103,19 +104,22 @@ TEST_F(TeleopTileTest, LockedSticksSayWhyAndSendNothing) {
 }
 
 TEST_F(TeleopTileTest, ThePumpRunsOnlyWhileItsButtonIsHeld) {
-  HoldButton& pump = macros.pump();
+  auto* panel = new PumpPanel(ui, hold);
+  macros.setHands(panel);
+  panel->show();
+  HoldButton& pump = panel->pump();
   const QPointF at(10, 10);
   mouse(pump, QEvent::MouseButtonPress, at);
-  ASSERT_NE(lastSetpoint<HoldPump>(), nullptr);
-  EXPECT_DOUBLE_EQ(lastSetpoint<HoldPump>()->left, 1.0);
-  EXPECT_DOUBLE_EQ(lastSetpoint<HoldPump>()->right, 1.0);
+  ASSERT_NE(lastSetpoint<HoldActuator>(), nullptr);
+  EXPECT_EQ(lastSetpoint<HoldActuator>()->name, kPumps);
+  EXPECT_DOUBLE_EQ(lastSetpoint<HoldActuator>()->value, 1.0);
   mouse(pump, QEvent::MouseButtonRelease, at);
   EXPECT_FALSE(hold.holding());
   EXPECT_EQ(link.releases, 1);
 }
 
 TEST_F(TeleopTileTest, AMacroIsCancelledByLettingGoAndByAStop) {
-  emit link.macros({{"arm park", "", 6.0, 0.0, ""}});
+  emit link.macros({{"arm park", "", 6.0, "", ""}});
   models.flush();
   ASSERT_EQ(macros.rows().size(), 1U);
   MacroRow& row = *macros.rows().front();
@@ -131,7 +135,7 @@ TEST_F(TeleopTileTest, AMacroIsCancelledByLettingGoAndByAStop) {
 }
 
 TEST_F(TeleopTileTest, AMacroGoesOnWhereItWasAndBeginsAnewByItsOwnKey) {
-  emit link.macros({{"arm park", "", 6.0, 0.0, ""}});
+  emit link.macros({{"arm park", "", 6.0, "", ""}});
   models.flush();
   MacroRow& row = *macros.rows().front();
   mouse(row, QEvent::MouseButtonPress, {10, 10});
@@ -146,7 +150,7 @@ TEST_F(TeleopTileTest, AMacroGoesOnWhereItWasAndBeginsAnewByItsOwnKey) {
 }
 
 TEST_F(TeleopTileTest, AMacrosStepIsCountedAsTheRobotCountsIt) {
-  emit link.macros({{"arm park", "", 6.0, 0.0, ""}});
+  emit link.macros({{"arm park", "", 6.0, "", ""}});
   status.macro = {"arm park", 1, 3, "arm to park", 0.1, ""};
   feed();
   EXPECT_TRUE(macros.rows().front()->line().startsWith("step 1 of 3"))
@@ -154,7 +158,8 @@ TEST_F(TeleopTileTest, AMacrosStepIsCountedAsTheRobotCountsIt) {
 }
 
 TEST_F(TeleopTileTest, NoWordMovesAControl) {
-  emit link.macros({{"arm park", "", 6.0, 0.0, ""}, {"spray fire 1", "", 18.0, 0.9, "near"}});
+  emit link.macros(
+      {{"arm park", "", 6.0, "", ""}, {"spray fire 1", "", 18.0, "near", "est. 0.9 l"}});
   feed();
   for (int i = 0; i < 5; ++i) QCoreApplication::processEvents();  // new rows are laid out in steps
   const auto places = [&] {
@@ -191,7 +196,7 @@ TEST_F(TeleopTileTest, NoWordMovesAControl) {
 }
 
 TEST_F(TeleopTileTest, ARowThatMovesUnderTheHandLetsGo) {
-  emit link.macros({{"arm park", "", 6.0, 0.0, ""}});
+  emit link.macros({{"arm park", "", 6.0, "", ""}});
   models.flush();
   QCoreApplication::processEvents();
   mouse(*macros.rows().front(), QEvent::MouseButtonPress, {10, 10});

@@ -1,4 +1,4 @@
-#include "gui/views/thermal/thermal_tile.h"
+#include "gui/panels/fire/thermal_tile.h"
 #include "tests/gui/views/station_fixture.h"
 
 namespace kiln::gui {

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "robot/fsm/machine_of.h"
+#include "tests/system/toy/toy_view.h"
 
 namespace kiln {
 namespace {
@@ -38,6 +39,16 @@ class ToyMission final : public Mission {
     if (machine_.status(now).state != "ToyStuck") return {};
     return {{"toy.stuck", AlarmLevel::Caution, "The toy is stuck", "lift it"}};
   }
+  [[nodiscard]] MissionInfo info() const override { return toy::missionInfo(); }
+  [[nodiscard]] Result<void> command(const MissionCommand& command, const std::string&,
+                                     Stamp) override {
+    context_.pushed_m += command.arguments.at(0).value;
+    return {};
+  }
+  [[nodiscard]] std::vector<Figure> figures(Stamp) const override {
+    return toy::figures(context_.drives);
+  }
+  void describe(Scene& scene, Stamp) const override { scene.items = toy::items(context_.goal()); }
   void report(nlohmann::json& report) const override {
     report["toy_drives"] = context_.drives;
     report["toy_x_m"] = context_.pose().x_m;
@@ -60,7 +71,7 @@ Transition ToyWait::execute() {
   return transit<ToyDrive>().because("waited");
 }
 
-void ToyDrive::enter() { context().drive.start({{context().config.distance_m, 0.0, 0.0}}, now()); }
+void ToyDrive::enter() { context().drive.start({context().goal()}, now()); }
 
 Transition ToyDrive::execute() {
   const SkillStatus drive = context().drive.poll(now());

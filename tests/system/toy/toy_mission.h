@@ -19,6 +19,8 @@ struct ToyContext {
   StowedDrive drive;
   std::function<Pose2()> pose;  ///< newest X_map_base
   int drives = 0;
+  double pushed_m = 0.0;  ///< by operators
+  [[nodiscard]] Pose2 goal() const { return {config.distance_m + pushed_m, 0.0, 0.0}; }
 };
 
 class ToyDrive;

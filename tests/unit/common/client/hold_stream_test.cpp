@@ -39,11 +39,11 @@ TEST(HoldStream, ReleaseSendsZeroThreeTimesThenSilence) {
 
 TEST(HoldStream, HungCallerIsARelease) {
   HoldStream stream(25.0, 0.2);
-  stream.hold(HoldPump{1, 1}, 1, at(0));
+  stream.hold(HoldActuator{"pumps", 1}, 1, at(0));
   int last_pump = -1, zeros = 0;
   for (int i = 0; i < 20; ++i) {
     const auto out = stream.due(at(i * 0.04));
-    if (count<HoldPump>(out) > 0) last_pump = i;
+    if (count<HoldActuator>(out) > 0) last_pump = i;
     zeros += count<ReleaseAll>(out);
   }
   EXPECT_EQ(last_pump, 5);  // 0.20 s
@@ -53,12 +53,12 @@ TEST(HoldStream, HungCallerIsARelease) {
 TEST(HoldStream, ReleasingOneKindLeavesTheOthersHeld) {
   HoldStream stream(25.0, 0.2);
   stream.hold(JogBase{{0.1, 0, 0}}, 1, at(0));
-  stream.hold(HoldPump{1, 1}, 1, at(0));
+  stream.hold(HoldActuator{"pumps", 1}, 1, at(0));
   stream.release(JogBase{});
   const auto out = stream.due(at(0.04));
   EXPECT_EQ(count<ReleaseAll>(out), 0);
   ASSERT_EQ(count<JogBase>(out), 1);
-  EXPECT_EQ(count<HoldPump>(out), 1);
+  EXPECT_EQ(count<HoldActuator>(out), 1);
   for (const auto& [body, press] : out) {
     if (const auto* jog = std::get_if<JogBase>(&body)) {
       EXPECT_EQ(jog->twist.vx_mps, 0.0);

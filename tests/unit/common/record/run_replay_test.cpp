@@ -7,8 +7,13 @@
 #include "common/record/foxglove.h"
 #include "common/record/run_topics.h"
 #include "common/record/schema.h"
+#include "common/wire/fire/codec/fire_codec.h"
+#include "common/wire/fire/fire_view.h"
+#include "common/wire/mission.h"
 #include "common/wire/sensor.h"
 #include "common/wire/telemetry.h"
+#include "common/wire/world.h"
+#include "tests/support/paths.h"
 #include "tests/unit/common/record/sample_recording.h"
 
 namespace kiln::test {
@@ -64,6 +69,48 @@ TEST(RunReplay, GivesTheStationsMessagesBack) {
   EXPECT_EQ(picture->width, 64);
   EXPECT_EQ(picture->frame, "operator_camera");
   EXPECT_EQ(picture->jpeg, tinyJpeg());
+}
+
+/// A run of the fire mission as Kiln of protocol 2 has recorded it, seconds of its end.
+TEST(RunReplay, AProtocol2RecordingIsHandedOverAsOfToday) {
+  ManualClock wall;
+  auto replay = RunReplay::open(sourceDir() + "/tests/unit/common/record/protocol2.mcap", wall);
+  ASSERT_TRUE(replay) << replay.error();
+  replay->player().play();
+  wall.advanceBy(std::chrono::seconds(60));
+  std::map<Topic, std::string> got;
+  const auto keep = [&](Topic topic, std::string_view payload, Stamp) {
+    got[topic] = std::string(payload);
+  };
+  for (int i = 0; i < 20; ++i) {
+    const auto polled = replay->poll(keep);
+    ASSERT_TRUE(polled) << polled.error();
+  }
+  const auto info = wire::decodeMissionInfo(got[Topic::MissionInfo]);
+  ASSERT_TRUE(info) << info.error();
+  EXPECT_EQ(info->mission, "fire");
+  EXPECT_EQ(info->panels.size(), 3u);
+  const auto status = wire::decodeRobotStatus(got[Topic::RobotStatus]);
+  ASSERT_TRUE(status) << status.error();
+  const WaterLevels water = fire::waterLevels(status->figures);
+  EXPECT_GT(water.sprayed_l_est, 1.0);
+  EXPECT_NEAR(findFigure(status->figures, "water.left")->value, 10.0 - water.sprayed_l_est, 1e-9);
+  const auto scene = wire::decodeScene(got[Topic::Scene]);
+  ASSERT_TRUE(scene) << scene.error();
+  const auto site = wire::decodeFireSite(scene->detail.data);
+  ASSERT_TRUE(site) << site.error();
+  EXPECT_EQ(site->places.size(), 2u);
+  EXPECT_EQ(site->fires.size(), 1u);
+  EXPECT_EQ(scene->items.size(), fire::sceneItems(*site).size());
+  const auto stream = wire::decodeMissionDetail(got[Topic::MissionStream]);
+  ASSERT_TRUE(stream) << stream.error();
+  EXPECT_TRUE(wire::decodeHeat(stream->data)) << stream->schema;
+  const auto macros = wire::decodeMacros(got[Topic::Macros]);
+  ASSERT_TRUE(macros) << macros.error();
+  ASSERT_FALSE(macros->empty());
+  bool uses = false;
+  for (const MacroInfo& macro : *macros) uses = uses || macro.uses.starts_with("est. ");
+  EXPECT_TRUE(uses) << "litres became text";
 }
 
 TEST(RunReplay, RefusesARecordingOfSomethingElse) {

@@ -6,8 +6,11 @@
 #include "common/wire/cloud_codec.h"
 #include "common/wire/command.h"
 #include "common/wire/compress.h"
+#include "common/wire/fire/codec/fire_codec.h"
+#include "common/wire/fire/codec/protocol2.h"
 #include "common/wire/fsm.h"
 #include "common/wire/localization.h"
+#include "common/wire/mission.h"
 #include "common/wire/sensor.h"
 #include "common/wire/telemetry.h"
 #include "common/wire/world.h"
@@ -41,6 +44,13 @@ int feedAll(std::string_view bytes) {
          static_cast<int>(decodeThermal(bytes).has_value()) +
          static_cast<int>(decodeJpeg(bytes).has_value()) +
          static_cast<int>(decodeHeat(bytes).has_value()) +
+         static_cast<int>(decodeFireSite(bytes).has_value()) +
+         static_cast<int>(decodeMissionInfo(bytes).has_value()) +
+         static_cast<int>(decodeMissionDetail(bytes).has_value()) +
+         static_cast<int>(protocol2::upgradeStatus(bytes).has_value()) +
+         static_cast<int>(protocol2::upgradeScene(bytes).has_value()) +
+         static_cast<int>(protocol2::upgradeMacros(bytes).has_value()) +
+         static_cast<int>(protocol2::missionInfo(bytes).has_value()) +
          static_cast<int>(decodeScene(bytes).has_value()) +
          static_cast<int>(decodeFsmInfo(bytes).has_value()) +
          static_cast<int>(decodeFsmStatus(bytes).has_value()) +

@@ -5,6 +5,7 @@
 #include "common/wire/command.h"
 #include "common/wire/fsm.h"
 #include "common/wire/localization.h"
+#include "common/wire/mission.h"
 #include "common/wire/sensor.h"
 #include "common/wire/telemetry.h"
 #include "common/wire/world.h"
@@ -32,11 +33,10 @@ std::vector<CommandBody> everyBody() {
           AcknowledgeAlarm{"arm.x"},
           SetRecording{true},
           SetPose{{1.5, -2.5, 0.7}},
-          NudgePlace{"place 1", {0.05, -0.1, 0.02}},
-          ContinueDespite{"place 1"},
+          MissionCommand{"nudge_place", "place 1", {{"x", 0.05}, {"yaw", -2.0}}},
           JogBase{{0.1, -0.2, 0.3}},
           arm,
-          HoldPump{0.0, 1.0},
+          HoldActuator{"pumps", 1.0},
           HoldMacro{"spray fire 1", true},
           ReleaseAll{}};
 }
@@ -90,24 +90,21 @@ TEST(Messages, RobotStatusKeepsEveryField) {
   s.twist = {0.1, 0.2, 0.3};
   s.arm.q << 1, 2, 3, 4, 5, 6;
   s.arm.safety = ArmSafetyMode::ProtectiveStop;
-  s.X_base_nozzle = makePose({1, 0, 1}, {0.1, 0.2, 0.3});
   s.wheel_steer_rad = {0.1, 0.2, 0.3, 0.4};
-  s.water = {{0.5, 1.0}, {2.0, 2.1}, {4.0, 4.5}, 0.7};
+  s.figures = {{"water.left", 8.5, 0.1}, {"score", 6.0, 0.0}};
   s.macro = {"arm park", 1, 2, "arm to park", 0.4, "done"};
   s.alarms = {{"a.b", AlarmLevel::Warning, "text", "action", at(1.0), true, false}};
   s.drops = {{"cloud", 3}};
   s.operators = {"anna", "ben"};
   const auto back = decodeRobotStatus(encode(s));
   ASSERT_TRUE(back.has_value()) << back.error();
-  EXPECT_TRUE(back->X_base_nozzle.isApprox(s.X_base_nozzle, 1e-12));
-  RobotStatus same = *back;
-  same.X_base_nozzle = s.X_base_nozzle;  // a rotation through a quaternion differs in its last bit
-  EXPECT_EQ(encode(same), encode(s));
+  EXPECT_EQ(encode(*back), encode(s));
   EXPECT_EQ(back->lease.requested_by_name, "ben");
   EXPECT_EQ(back->checks.at(0).action, "check its cable");
   EXPECT_FALSE(back->checks.at(0).warn);
   EXPECT_TRUE(back->checks.at(1).warn);
-  EXPECT_EQ(back->water.tank_l_est, s.water.tank_l_est);
+  ASSERT_NE(findFigure(back->figures, "score"), nullptr);
+  EXPECT_EQ(findFigure(back->figures, "score")->value, 6.0);
 }
 
 TEST(Messages, ThermalCountsComeBackExactly) {
@@ -124,26 +121,27 @@ TEST(Messages, ThermalCountsComeBackExactly) {
 
 TEST(Messages, SceneAndGraphComeBack) {
   Scene scene;
-  scene.fires.push_back({at(1), {1, 2, 3}, Eigen::Matrix3d::Random(), 4, 350, 0.9, 1.1, "place 1"});
-  scene.places.push_back({"place 1", {4, 5, 6}, 0.5, true, {0.1, -0.1, 0.05}});
-  PlaceCheck seen;
-  seen.place = "place 1";
-  seen.X_map_sensed = makePose({1, 2, 0}, {0, 0, 0});
-  seen.verdict = PlaceVerdict::Misplaced;
-  seen.reason = "18 cm off";
-  PlaceCheck unseen;
-  unseen.place = "place 2";
-  scene.place_checks = {seen, unseen};
+  SceneItem line;
+  line.id = "jet";
+  line.layer = "fire.jet";
+  line.points = {{1, 0, 0}, {2, 0, 0}};
+  line.width_px = 4.0;
+  SceneItem estimate;
+  estimate.shape = SceneItem::Shape::Estimate;
+  estimate.style = ItemStyle::Target;
+  estimate.X_map_item.translation() = Eigen::Vector3d(1, 2, 3);
+  estimate.covariance = Eigen::Matrix3d::Random();
+  estimate.label = "place 1 · 0.86 m";
+  estimate.detail = "127 °C peak";
+  scene.items = {line, estimate};
+  scene.detail = {at(1), "kiln.fire.v1.FireSite", "bytes"};
   scene.planned.waypoints_map = {{1, 2, 3}};
-  scene.jet.points_map = {{1, 0, 0}, {2, 0, 0}};
   scene.arena.push_back({"wall", makePose({1, 2, 3}, {0, 0, 1}), {1, 1, 1}, 0xff00ff});
   const auto back = decodeScene(encode(scene));
   ASSERT_TRUE(back.has_value()) << back.error();
-  EXPECT_TRUE(back->fires.at(0).covariance.isApprox(scene.fires[0].covariance));
+  EXPECT_TRUE(back->items.at(1).covariance.isApprox(estimate.covariance));
+  EXPECT_EQ(back->items.at(1).style, ItemStyle::Target);
   EXPECT_EQ(encode(*back), encode(scene));
-  EXPECT_EQ(back->place_checks.at(0).verdict, PlaceVerdict::Misplaced);
-  EXPECT_TRUE(back->place_checks.at(0).X_map_sensed.has_value());
-  EXPECT_FALSE(back->place_checks.at(1).X_map_sensed.has_value());
 
   FsmStatus status;
   status.guards = {{"Estimate within 3 cm", true, "2.1 cm", 0.2}};
@@ -151,6 +149,48 @@ TEST(Messages, SceneAndGraphComeBack) {
   const auto fsm = decodeFsmStatus(encode(status));
   ASSERT_TRUE(fsm.has_value()) << fsm.error();
   EXPECT_EQ(encode(*fsm), encode(status));
+}
+
+TEST(Messages, AnItemThatCannotBeDrawnIsRefused) {
+  const auto refused = [](auto spoil) {
+    Scene scene;
+    scene.items.resize(1);
+    spoil(scene.items[0]);
+    return !decodeScene(encode(scene)).has_value();
+  };
+  EXPECT_FALSE(refused([](SceneItem&) {}));
+  EXPECT_TRUE(refused([](SceneItem& item) { item.points = {{std::nan(""), 0, 0}}; }));
+  EXPECT_TRUE(refused([](SceneItem& item) { item.width_px = 1e9; }));
+  EXPECT_TRUE(refused([](SceneItem& item) { item.width_px = std::nan(""); }));
+  EXPECT_TRUE(refused([](SceneItem& item) { item.size.x() = std::nan(""); }));
+  EXPECT_TRUE(refused([](SceneItem& item) { item.shape = static_cast<SceneItem::Shape>(9); }));
+}
+
+TEST(Messages, WhatAMissionBringsComesBack) {
+  MissionInfo info;
+  info.mission = "fire";
+  info.mission_uuid = "abc";
+  info.title = "Fire in the kitchen";
+  FigureSpec water{"water.left", "Water", "l", 1, 0.0, 10.0, 2.0};
+  water.estimated = water.top_bar = true;
+  FigureSpec peak{"thermal.peak", "Peak", "°C", 0, 20.0, 60.0};
+  peak.caution_above = 200.0;
+  peak.plot = true;
+  info.figures = {water, peak};
+  info.layers = {{"fire.jet", "Jet"}};
+  CommandSpec nudge{"nudge_place", "Move place", "It is moved.", Confirmation::Hold, true};
+  nudge.target = "place";
+  nudge.arguments = {{"x", "m", -0.5, 0.5, "along x"}};
+  info.commands = {nudge};
+  info.actuators = {{"pumps", "Both pumps"}};
+  info.panels = {"fire.thermal"};
+  const auto back = decodeMissionInfo(encode(info));
+  ASSERT_TRUE(back.has_value()) << back.error();
+  EXPECT_TRUE(*back == info);
+  info.commands[0].arguments[0].high = 0.4;
+  EXPECT_FALSE(*back == info);
+  EXPECT_EQ(figureText(info.figures[0], 4.24), "est. 4.2 l");
+  EXPECT_EQ(figureText(info.figures[1], std::nan("")), "–");
 }
 
 TEST(Messages, LocalizationComesBackWithWhatIsUnknown) {

@@ -55,11 +55,19 @@ TEST(OutsideText, EveryWordOfACommandIsCleaned) {
   EXPECT_EQ(nameOf([](v1::Command& m) { m.mutable_change_state()->set_to(kHostile); },
                    [](auto& b) { return std::get<ChangeState>(b).to; }),
             kClean);
-  EXPECT_EQ(nameOf([](v1::Command& m) { m.mutable_nudge_place()->set_place(kHostile); },
-                   [](auto& b) { return std::get<NudgePlace>(b).place; }),
+  EXPECT_EQ(nameOf([](v1::Command& m) { m.mutable_mission_command()->set_name(kHostile); },
+                   [](auto& b) { return std::get<MissionCommand>(b).name; }),
             kClean);
-  EXPECT_EQ(nameOf([](v1::Command& m) { m.set_continue_despite(kHostile); },
-                   [](auto& b) { return std::get<ContinueDespite>(b).subject; }),
+  EXPECT_EQ(nameOf([](v1::Command& m) { m.mutable_mission_command()->set_target(kHostile); },
+                   [](auto& b) { return std::get<MissionCommand>(b).target; }),
+            kClean);
+  EXPECT_EQ(
+      nameOf(
+          [](v1::Command& m) { m.mutable_mission_command()->add_arguments()->set_name(kHostile); },
+          [](auto& b) { return std::get<MissionCommand>(b).arguments.at(0).name; }),
+      kClean);
+  EXPECT_EQ(nameOf([](v1::Command& m) { m.mutable_hold_actuator()->set_name(kHostile); },
+                   [](auto& b) { return std::get<HoldActuator>(b).name; }),
             kClean);
 }
 

@@ -109,7 +109,7 @@ TEST_F(RunRecorderTest, WritesWhatItIsGivenAndWhatTheRunWas) {
 TEST_F(RunRecorderTest, BeginsWithWhatIsLatched) {
   auto recording = recorder(roomy());
   publish(*recording, Topic::Macros, "");  // published long before the recording begins
-  publish(*recording, Topic::Heat, "");    // not latched
+  publish(*recording, Topic::Cloud, "");   // not latched
   recording->set(true);
   recording->scan(scan());
   recording.reset();
@@ -126,7 +126,7 @@ TEST_F(RunRecorderTest, FullQueueDropsCountsAndNeverWaits) {
   recording->set(true);
   std::promise<void> entered, leave;
   recording->tap().published(
-      Topic::Heat,
+      Topic::Cloud,
       [&entered, &leave] {
         entered.set_value();
         leave.get_future().wait();

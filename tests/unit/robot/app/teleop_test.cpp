@@ -63,7 +63,7 @@ TEST_F(TeleopTest, SilenceIsAReleaseOfTheBase) {
 
 TEST_F(TeleopTest, SilenceCutsThePumps) {
   run(milliseconds(200));
-  teleop_.holdPump({1.0, 1.0}, clock_.now());
+  teleop_.holdActuator({kPumps, 1.0}, clock_.now());
   run(milliseconds(100));
   EXPECT_GT(pumps_.tracking().duty[0], 0.0);
   run(milliseconds(250));
@@ -107,9 +107,21 @@ TEST_F(TeleopTest, StopsBeforeTheRobotsOwnDeckAndSaysSo) {
   EXPECT_EQ(teleop_.blocked(), "") << "away is allowed";
 }
 
+TEST_F(TeleopTest, EachActuatorRunsWhatItIsCalled) {
+  run(milliseconds(200));
+  for (const ActuatorSpec& actuator : Teleop::actuators()) {
+    teleop_.holdActuator({actuator.name, 1.0}, clock_.now());
+    run(milliseconds(100));
+    const auto duty = pumps_.tracking().duty;
+    EXPECT_EQ(duty[0] > 0.0, actuator.name != kPumpRight) << actuator.name;
+    EXPECT_EQ(duty[1] > 0.0, actuator.name != kPumpLeft) << actuator.name;
+    run(milliseconds(400));
+  }
+}
+
 TEST_F(TeleopTest, ReleaseAllStopsEverythingAtOnce) {
   run(milliseconds(200));
-  teleop_.holdPump({1.0, 1.0}, clock_.now());
+  teleop_.holdActuator({kPumps, 1.0}, clock_.now());
   teleop_.jogBase({{1.0, 0.0, 0.0}}, clock_.now(), 1.0);
   run(milliseconds(80));
   teleop_.releaseAll(clock_.now());

@@ -22,18 +22,18 @@ TEST(Figures, QuantileInterpolatesBetweenOrderedValues) {
 TEST(Figures, JudgesAgainstTheGoalOfItsEvaluationOnly) {
   const std::vector<Goal> goals = {{"fire", "rate", ">=", 0.95, ""},
                                    {"fire", "time", "<=", 330, ""}};
-  Figure rate{"rate", 0.9, "", "", true};
+  Metric rate{"rate", 0.9, "", "", true};
   judge(rate, "fire", goals);
   EXPECT_FALSE(rate.ok);
   EXPECT_EQ(rate.goal, ">= 0.95");
-  Figure elsewhere{"rate", 0.9, "", "", true};
+  Metric elsewhere{"rate", 0.9, "", "", true};
   judge(elsewhere, "wall", goals);
   EXPECT_TRUE(elsewhere.ok);
 }
 
 TEST(Figures, AFigureThatWasNotMeasuredMissesItsGoal) {
   const std::vector<Goal> goals = {{"fire", "time", "<=", 330, ""}};
-  Figure unknown{"time", std::numeric_limits<double>::quiet_NaN(), "s", "", true};
+  Metric unknown{"time", std::numeric_limits<double>::quiet_NaN(), "s", "", true};
   judge(unknown, "fire", goals);
   EXPECT_FALSE(unknown.ok);
 }

@@ -20,8 +20,18 @@ struct Desk {
   GateSituation situation;
   Stamp now = at(100.0);
   std::uint64_t nonce = 0;
+  MissionInfo mission;
 
   Desk() {
+    CommandSpec nudge{"nudge_place", "Move place", "", Confirmation::Hold, true};
+    nudge.target = "place";
+    nudge.arguments = {{"x", "m", -0.5, 0.5}, {"yaw", "deg", -30.0, 30.0}};
+    CommandSpec go_on{"continue_despite", "Go on", "", Confirmation::Hold};
+    go_on.needs_live = true;
+    go_on.target = "place";
+    mission.commands = {nudge, go_on, {"skip", "Skip", ""}};
+    mission.actuators = {{"pumps", "Both pumps"}};
+    situation.mission = &mission;
     lease.holder_client = "anna";
     lease.holder_name = "Anna";
     lease.epoch = 3;
@@ -136,19 +146,20 @@ TEST(CommandGate, EveryNonFiniteNumberIsRefusedWhereverItStands) {
       jog.velocity[i] = wrong;
       EXPECT_EQ(desk.code(jog), "not_finite");
     }
-    EXPECT_EQ(desk.code(HoldPump{wrong, 0}), "not_finite");
-    EXPECT_EQ(desk.code(HoldPump{0, wrong}), "not_finite");
+    EXPECT_EQ(desk.code(HoldActuator{"pumps", wrong}), "not_finite");
     EXPECT_EQ(desk.code(SetSpeedScale{wrong}), "not_finite");
   }
-  EXPECT_EQ(desk.code(HoldPump{1.1, 0}), "out_of_range");
-  EXPECT_EQ(desk.code(HoldPump{-0.1, 0}), "out_of_range");
+  EXPECT_EQ(desk.code(HoldActuator{"pumps", 1.1}), "out_of_range");
+  EXPECT_EQ(desk.code(HoldActuator{"pumps", -0.1}), "out_of_range");
+  EXPECT_EQ(desk.code(HoldActuator{"magnet", 1.0}), "no_such_actuator");
+  EXPECT_EQ(desk.code(HoldActuator{"magnet", kNan}), "no_such_actuator");
 }
 
 /// architecture.md section 6, cell by cell.
 TEST(CommandGate, FollowsTheModeTable) {
   const CommandBody transition = ChangeState{"A", 1, "B"};
   const CommandBody macro = HoldMacro{"arm park", false};
-  const CommandBody pump = HoldPump{1.0, 1.0};
+  const CommandBody pump = HoldActuator{"pumps", 1.0};
   struct Row {
     Mode mode;
     bool transition, macro, jog, pump;
@@ -183,9 +194,9 @@ TEST(CommandGate, ReleasesAlwaysPassForTheHolder) {
   Desk desk;
   desk.situation.stop_latched = true;
   desk.situation.view_age_s = 100.0;
-  for (const CommandBody& zero :
-       {CommandBody(ReleaseAll{}), CommandBody(JogBase{}), CommandBody(JogArm{}),
-        CommandBody(HoldPump{}), CommandBody(HoldMacro{})}) {
+  for (const CommandBody& zero : {CommandBody(ReleaseAll{}), CommandBody(JogBase{}),
+                                  CommandBody(JogArm{}), CommandBody(HoldActuator{"pumps"}),
+                                  CommandBody(HoldActuator{"magnet"}), CommandBody(HoldMacro{})}) {
     auto received = desk.make(zero);
     received.command.issued = desk.now - fromSeconds(5.0);
     EXPECT_TRUE(desk.decide(received).accepted) << commandName(zero);
@@ -243,26 +254,44 @@ TEST(CommandGate, APoseIsSetAtRestAndNotUnderARunningMission) {
   EXPECT_EQ(desk.code(SetPose{{0, 1e6, 0}}), "out_of_range");
 }
 
-TEST(CommandGate, NudgesAreSmallAndNeedTheLease) {
+MissionCommand nudge(double x_m, double yaw_deg) {
+  return {"nudge_place", "place 1", {{"x", x_m}, {"yaw", yaw_deg}}};
+}
+const MissionCommand kGoOn{"continue_despite", "place 1", {}};
+
+TEST(CommandGate, AMissionsCommandIsJudgedByItsDescription) {
   Desk desk;
-  EXPECT_EQ(desk.code(NudgePlace{"place 1", {0.2, -0.1, 0.1}}), "");
-  EXPECT_EQ(desk.code(NudgePlace{"place 1", {0.6, 0, 0}}), "out_of_range");
-  EXPECT_EQ(desk.code(NudgePlace{"place 1", {0, 0, kNan}}), "not_finite");
-  for (const CommandBody& body : {CommandBody(SetPose{}), CommandBody(NudgePlace{"place 1", {}}),
-                                  CommandBody(ContinueDespite{"place 1"})}) {
+  EXPECT_EQ(desk.code(nudge(0.2, -5.0)), "");
+  EXPECT_EQ(desk.code(nudge(0.6, 0.0)), "out_of_range");
+  EXPECT_EQ(desk.code(nudge(0.0, 31.0)), "out_of_range");
+  EXPECT_EQ(desk.code(nudge(0.0, kNan)), "not_finite");
+  EXPECT_EQ(desk.code(MissionCommand{"jump", "place 1", {}}), "no_such_command");
+  EXPECT_EQ(desk.code(MissionCommand{"nudge_place", "", {{"x", 0}, {"yaw", 0}}}), "bad_arguments");
+  EXPECT_EQ(desk.code(MissionCommand{"nudge_place", "place 1", {{"x", 0}}}), "bad_arguments");
+  EXPECT_EQ(desk.code(MissionCommand{"nudge_place", "place 1", {{"x", 0}, {"x", 0}}}),
+            "bad_arguments");
+  EXPECT_EQ(desk.code(MissionCommand{"skip", "place 1", {}}), "bad_arguments");
+  EXPECT_EQ(desk.code(MissionCommand{"skip", "", {}}), "");
+  for (const CommandBody& body :
+       {CommandBody(SetPose{}), CommandBody(nudge(0, 0)), CommandBody(kGoOn)}) {
     auto stranger = desk.make(body);
     stranger.command.client_id = "ben";
     EXPECT_EQ(desk.decide(stranger).code, "no_lease") << commandName(body);
   }
+  desk.situation.mission = nullptr;
+  EXPECT_EQ(desk.code(nudge(0.2, -5.0)), "no_such_command");
+  EXPECT_EQ(desk.code(HoldActuator{"pumps", 1.0}), "no_such_actuator");
 }
 
-TEST(CommandGate, GoingOnDespiteACheckNeedsAMissionThatRuns) {
+TEST(CommandGate, AMissionsCommandNeedsItsPremises) {
   Desk desk;
-  EXPECT_EQ(desk.code(ContinueDespite{"place 1"}), "not_running");
+  EXPECT_EQ(desk.code(kGoOn), "not_running");
   desk.situation.phase = MissionPhase::Running;
-  EXPECT_EQ(desk.code(ContinueDespite{"place 1"}), "");
+  EXPECT_EQ(desk.code(kGoOn), "");
   desk.situation.stop_latched = true;
-  EXPECT_EQ(desk.code(ContinueDespite{"place 1"}), "stopped");
+  EXPECT_EQ(desk.code(kGoOn), "stopped");
+  EXPECT_EQ(desk.code(MissionCommand{"skip", "", {}}), "stopped");
+  EXPECT_EQ(desk.code(nudge(0.2, -5.0)), "") << "it moves nothing";
 }
 
 }  // namespace

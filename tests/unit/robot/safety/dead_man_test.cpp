@@ -26,17 +26,17 @@ TEST(DeadMan, HoldsFor250MsAfterTheLastSetpoint) {
   dead_man.feed(from(JogBase{{0.1, 0, 0}}), at(1.0));
   EXPECT_TRUE(dead_man.held(HoldKind::BaseJog, at(1.25)));
   EXPECT_FALSE(dead_man.held(HoldKind::BaseJog, at(1.26)));
-  EXPECT_FALSE(dead_man.held(HoldKind::Pump, at(1.0)));
+  EXPECT_FALSE(dead_man.held(HoldKind::Actuator, at(1.0)));
 }
 
 TEST(DeadMan, ReportsEachReleaseEdgeOnce) {
   DeadMan dead_man({});
   dead_man.feed(from(JogBase{{0.1, 0, 0}}), at(1.0));
-  dead_man.feed(from(HoldPump{1, 1}), at(1.2));
+  dead_man.feed(from(HoldActuator{"pumps", 1}), at(1.2));
   EXPECT_THAT(dead_man.takeReleased(at(1.2)), IsEmpty());
   EXPECT_THAT(dead_man.takeReleased(at(1.3)), ElementsAre(HoldKind::BaseJog));
   EXPECT_THAT(dead_man.takeReleased(at(1.4)), IsEmpty());
-  EXPECT_THAT(dead_man.takeReleased(at(1.5)), ElementsAre(HoldKind::Pump));
+  EXPECT_THAT(dead_man.takeReleased(at(1.5)), ElementsAre(HoldKind::Actuator));
 }
 
 TEST(DeadMan, ExplicitZeroIsAReleaseAtOnce) {
@@ -61,7 +61,7 @@ TEST(DeadMan, APressThatTimedOutIsOver) {
   EXPECT_FALSE(dead_man.mayFeed(from(forward, 3)));
   EXPECT_FALSE(dead_man.mayFeed(from(forward, 2))) << "and every one before it";
   EXPECT_TRUE(dead_man.mayFeed(from(forward, 4)));
-  EXPECT_TRUE(dead_man.mayFeed(from(HoldPump{1, 1}, 3))) << "of this kind alone";
+  EXPECT_TRUE(dead_man.mayFeed(from(HoldActuator{"pumps", 1}, 3))) << "of this kind alone";
   EXPECT_TRUE(dead_man.mayFeed(from(ReleaseAll{}, 0)));
 }
 

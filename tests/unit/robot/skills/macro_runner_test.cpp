@@ -237,7 +237,7 @@ TEST_F(MacroRunnerTest, ListTellsDurationWaterAndStartCondition) {
   make({step("arm"), spray}, "place 1");
   const auto info = runner->list().at(0);
   EXPECT_NEAR(info.duration_s, 6.0 + 30.0, 1e-9);
-  EXPECT_NEAR(info.water_l, 2 * 1.6 / 60.0 * 0.5 * 30.0, 1e-9);
+  EXPECT_EQ(info.uses, "est. 0.8 l") << 2 * 1.6 / 60.0 * 0.5 * 30.0;
   EXPECT_THAT(info.start_condition, HasSubstr("place 1"));
 }
 

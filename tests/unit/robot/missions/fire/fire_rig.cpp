@@ -90,7 +90,7 @@ void FireRig::build() {
   const FireDevices devices{
       {clock, executor_, arena, robot, belief, base, arm, arm_device, *pumps, spray_calibration_,
        [this] { return base.pose(); }, surroundings, [](Stamp) { return std::nullopt; },
-       [](const ThermalImagePtr&) {}, [](const HeatDetections&) {}},
+       [](const ThermalImagePtr&) {}, [](const MissionDetail&) {}},
       sweep};
   mission = std::make_unique<FireMission>(devices, config, "test-uuid");
   host = std::make_unique<MissionHost>(*mission, belief, stop, clock,

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/wire/fire/fire_view.h"
 #include "tests/unit/robot/missions/fire/fire_rig.h"
 
 namespace kiln {
@@ -41,17 +42,19 @@ TEST(FireMission, TellsPlacesEstimatesAndJet) {
   FireRig rig;
   ASSERT_TRUE(rig.runToState("SpraySteady"));
   rig.run(1.0);
+  const FireSite site = rig.mission->site(rig.clock.now());
+  ASSERT_EQ(site.places.size(), 2u);
+  EXPECT_EQ(site.places[0].name, "place 1");
+  ASSERT_EQ(site.fires.size(), 1u);
+  EXPECT_EQ(site.fires[0].place, "place 1");
+  EXPECT_TRUE(site.spraying);
   Scene scene;
   rig.mission->describe(scene, rig.clock.now());
-  ASSERT_EQ(scene.places.size(), 2u);
-  EXPECT_EQ(scene.places[0].name, "place 1");
-  ASSERT_EQ(scene.fires.size(), 1u);
-  EXPECT_EQ(scene.fires[0].place, "place 1");
-  const JetPreview& jet = scene.jet;
-  EXPECT_TRUE(jet.spraying);
-  ASSERT_GT(jet.points_map.size(), 10u);
+  EXPECT_EQ(scene.items.size(), fire::sceneItems(site).size());
+  EXPECT_EQ(scene.detail.schema, fire::kSiteSchema);
+  ASSERT_GT(site.jet_map.size(), 10u);
   double nearest = 1.0;
-  for (const Eigen::Vector3d& p : jet.points_map)
+  for (const Eigen::Vector3d& p : site.jet_map)
     nearest = std::min(nearest, (p - rig.sweep.p_plate_map).norm());
   EXPECT_LT(nearest, 0.04) << "5 cm between points";
 }
@@ -59,9 +62,8 @@ TEST(FireMission, TellsPlacesEstimatesAndJet) {
 TEST(FireMission, ScoresTheFirstLitreOnAPlace) {
   FireRig rig;
   const auto score = [&rig] {
-    RobotStatus status;
-    rig.mission->describe(status, rig.clock.now());
-    return status.score_est;
+    const auto figures = rig.mission->figures(rig.clock.now());
+    return findFigure(figures, "score")->value;
   };
   EXPECT_EQ(score(), 0.0);
   rig.mission->belief().places[1].litres_est = 0.5;
@@ -79,9 +81,26 @@ TEST(FireMission, RaisesAPlaceThatIsRefused) {
   EXPECT_EQ(rig.mission->alarms(rig.clock.now())[0].id, "place.refused");
 }
 
+TEST(FireMission, ItsCommandsAreThoseThatItDescribes) {
+  FireRig rig;
+  const MissionInfo info = rig.mission->info();
+  ASSERT_NE(info.command(fire::kNudgePlace), nullptr);
+  const MissionCommand nudge{fire::kNudgePlace, "place 2", {{"x", 0.1}, {"y", -0.2}, {"yaw", 3}}};
+  ASSERT_EQ(info.command(fire::kNudgePlace)->arguments.size(), nudge.arguments.size());
+  ASSERT_TRUE(rig.mission->command(nudge, "Ada", rig.clock.now()).has_value());
+  const Pose2 by = rig.mission->site(rig.clock.now()).places[1].nudge;
+  EXPECT_NEAR(by.x_m, 0.1, 1e-12);
+  EXPECT_NEAR(by.y_m, -0.2, 1e-12);
+  EXPECT_NEAR(by.yaw_rad, 3.0 * M_PI / 180.0, 1e-12);
+  const MissionCommand go_on{fire::kContinueDespite, "place 1", {}};
+  EXPECT_EQ(rig.mission->command(go_on, "Ada", rig.clock.now()).error().code, ErrorCode::Refused)
+      << "nothing objects";
+}
+
 TEST(FireMission, RefusesCommandsOfOtherMissions) {
   FireRig rig;
-  EXPECT_EQ(rig.mission->command(Pause{}, "Ada", rig.clock.now()).error().code, ErrorCode::Refused);
+  EXPECT_EQ(rig.mission->command({"dance", "", {}}, "Ada", rig.clock.now()).error().code,
+            ErrorCode::Refused);
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ TEST(CheckPlace, ANudgeIsCheckedAndTheMissionGoesOnWithThePlaceWhereItIs) {
   EXPECT_NEAR(wrapAngle(projectToGround(after).yaw_rad - projectToGround(before).yaw_rad), 0.05,
               1e-9);
   EXPECT_NEAR(rig.mission->placeChecks()[0].correction().x_m, 0.0, 1e-9) << "shown where it is now";
-  EXPECT_NEAR(rig.mission->places()[0].nudge.yaw_rad, 0.05, 1e-12);
+  EXPECT_NEAR(rig.mission->site(rig.clock.now()).places[0].nudge.yaw_rad, 0.05, 1e-12);
   // The robot works from the same pose relative to the place, and plans with the moved box.
   const Pose2 seen_before = inverse(projectToGround(before)) * work_before;
   const Pose2 seen_after =
