@@ -9,7 +9,7 @@ namespace kiln {
 namespace {
 
 constexpr double kDeg = M_PI / 180.0;
-constexpr double kPromisedStop_mps2 = 2.0;       // resources/docs/safety.md
+constexpr double kPromisedStop_mps2 = 1.8;       // resources/docs/safety.md
 constexpr double kPromisedSetpointAge_s = 0.25;  // the same
 constexpr double kPumpWatchdog_s = 0.2;
 constexpr double kSteerSlack_rad = 0.05;

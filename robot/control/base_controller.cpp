@@ -34,7 +34,7 @@ void BaseController::Config::visit(ConfigArchive& a) {
   a.field("max_speed_mps", max_speed_mps, "m/s", 0.05, 4.0, "speed over ground");
   a.field("max_yaw_rate_radps", max_yaw_rate_radps, "rad/s", 0.05, 3.0, "turning speed");
   a.field("max_accel_mps2", max_accel_mps2, "m/s^2", 0.1, 3.0, "speeding up and planned braking");
-  a.field("stop_decel_mps2", stop_decel_mps2, "m/s^2", 2.0, 6.0, "ramp to zero on STOP or loss");
+  a.field("stop_decel_mps2", stop_decel_mps2, "m/s^2", 1.8, 6.0, "ramp to zero on STOP or loss");
   a.field("max_jerk_mps3", max_jerk_mps3, "m/s^3", 0.5, 50, "change of acceleration");
   a.field("stop_jerk_mps3", stop_jerk_mps3, "m/s^3", 10, 200, "change of acceleration on STOP");
   a.field("max_setpoint_age_s", max_setpoint_age_s, "s", 0.05, 0.24, "older setpoints mean stop");

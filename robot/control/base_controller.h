@@ -51,9 +51,9 @@ class BaseController {
     double max_speed_mps = 1.0;
     double max_yaw_rate_radps = 0.8;
     double max_accel_mps2 = 0.8;
-    double stop_decel_mps2 = 2.0;
+    double stop_decel_mps2 = 1.8;  ///< the drives brake with 2.0: they can follow it
     double max_jerk_mps3 = 4.0;
-    double stop_jerk_mps3 = 20.0;  ///< ramp-in of the stop: 2 m/s^2 after 0.1 s
+    double stop_jerk_mps3 = 20.0;  ///< ramp-in of the stop: 1.8 m/s^2 after 0.09 s
     double max_setpoint_age_s =
         0.22;  ///< stop begins at the smaller of this and the setpoint's ttl
     double max_state_age_s = 0.1;

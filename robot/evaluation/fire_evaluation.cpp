@@ -55,6 +55,7 @@ Result<EvaluationResult> evaluateFire(const SweepOptions& options) {
       {"heat_range_p95_m", quantile(heat.range_m, 0.95), "m", "", true},
       {"heat_lateral_median_m", median(heat.lateral_m), "m", "", true},
       {"heat_lateral_p95_m", quantile(heat.lateral_m, 0.95), "m", "", true},
+      {"heat_gross", static_cast<double>(heat.gross), "", "", true},
       {"baseline_range_median_m", median(heat.baseline_range_m), "m", "", true},
       {"baseline_range_p95_m", quantile(heat.baseline_range_m, 0.95), "m", "", true},
       {"litres_median", median(litres), "l", "", true},

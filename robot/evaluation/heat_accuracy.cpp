@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <sstream>
 
 #include <Eigen/Geometry>
@@ -13,6 +14,7 @@ namespace {
 using nlohmann::json;
 
 constexpr double kMaxRange_m = 1.0;
+constexpr double kGross_m = 0.5;
 constexpr double kMaxAxisAngle_rad = 10.0 * M_PI / 180.0;
 
 struct TruthSample {
@@ -51,6 +53,22 @@ bool cameraAt(const std::vector<TruthSample>& trace, double t_s, Eigen::Isometry
   return true;
 }
 
+Eigen::Vector3d vector3(const json& xyz) {
+  return {xyz[0].get<double>(), xyz[1].get<double>(), xyz[2].get<double>()};
+}
+
+/// True plate centre, in `thermal`, of the fire place that an estimate is nearest to.
+std::optional<Eigen::Vector3d> nearestPlate(const json& places,
+                                            const Eigen::Isometry3d& X_map_thermal,
+                                            const Eigen::Vector3d& p_thermal) {
+  std::optional<Eigen::Vector3d> nearest;
+  for (const auto& place : places) {
+    const Eigen::Vector3d plate = X_map_thermal.inverse() * vector3(place["plate_xyz_m"]);
+    if (!nearest || (plate - p_thermal).norm() < (*nearest - p_thermal).norm()) nearest = plate;
+  }
+  return nearest;
+}
+
 }  // namespace
 
 void appendHeatErrors(const MissionRun& run, HeatErrors& errors) {
@@ -59,23 +77,20 @@ void appendHeatErrors(const MissionRun& run, HeatErrors& errors) {
   for (const auto& estimate : reports["robot"].value("heat_estimates", json::array())) {
     Eigen::Isometry3d X_map_thermal;
     if (!cameraAt(trace, estimate["t"].get<double>(), X_map_thermal)) continue;
-    const auto& p = estimate["p_thermal"];
-    const Eigen::Vector3d estimated(p[0].get<double>(), p[1].get<double>(), p[2].get<double>());
-    for (const auto& place : reports["truth"].at("fire_places")) {
-      const auto& plate = place["plate_xyz_m"];
-      const Eigen::Vector3d p_map(plate[0].get<double>(), plate[1].get<double>(),
-                                  plate[2].get<double>());
-      const Eigen::Vector3d truth = X_map_thermal.inverse() * p_map;
-      const double range = truth.norm();
-      const bool near = range <= kMaxRange_m &&
-                        std::acos(std::clamp(truth.z() / range, -1.0, 1.0)) <= kMaxAxisAngle_rad;
-      if (!near || (estimated - truth).norm() > 0.5)
-        continue;  // farther: an estimate of the other place
-      errors.range_m.push_back(std::abs(estimated.norm() - range));
-      errors.lateral_m.push_back(estimated.cross(truth.normalized()).norm());
-      errors.baseline_range_m.push_back(
-          std::abs(estimate["baseline_range_m"].get<double>() - range));
+    const Eigen::Vector3d estimated = vector3(estimate["p_thermal"]);
+    const auto truth = nearestPlate(reports["truth"].at("fire_places"), X_map_thermal, estimated);
+    if (!truth) continue;
+    if (!((estimated - *truth).norm() <= kGross_m)) {
+      ++errors.gross;
+      continue;
     }
+    const double range = truth->norm();
+    const bool near = range <= kMaxRange_m &&
+                      std::acos(std::clamp(truth->z() / range, -1.0, 1.0)) <= kMaxAxisAngle_rad;
+    if (!near) continue;
+    errors.range_m.push_back(std::abs(estimated.norm() - range));
+    errors.lateral_m.push_back(estimated.cross(truth->normalized()).norm());
+    errors.baseline_range_m.push_back(std::abs(estimate["baseline_range_m"].get<double>() - range));
   }
 }
 

@@ -43,7 +43,7 @@ void ArenaMap::visit(ConfigArchive& a) {
   a.field("geofence_y_min_m", geofence_y_min_m, "m", -1e3, 1e3, "the base centre stays inside");
   a.field("geofence_y_max_m", geofence_y_max_m, "m", -1e3, 1e3, "the base centre stays inside");
   a.field("box_size_m", box_size_m, "m", 0.1, 2, "edge of the acrylic box");
-  a.field("opening_m", opening_m, "m", 0.02, 1, "edge of the opening");
+  a.field("opening_m", opening_m, "m", 0.02, 1, "diameter of the opening");
   a.field("plate_m", plate_m, "m", 0.02, 1, "diameter of the plate");
   a.field("recess_m", recess_m, "m", 0, 1, "plate behind the opening");
   a.field("table_size_m", table_size_m, "m", 0.1, 3, "edge of the table top");

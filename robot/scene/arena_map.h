@@ -57,7 +57,7 @@ struct ArenaMap {
   double geofence_x_min_m = -3, geofence_x_max_m = 16, geofence_y_min_m = -7, geofence_y_max_m = 7;
   // Fire box (acrylic), same at both places; sizes from the rules.
   double box_size_m = 0.4;
-  double opening_m = 0.15;  ///< square opening, edge length
+  double opening_m = 0.15;  ///< round opening, diameter
   double plate_m = 0.15;    ///< plate diameter
   double recess_m = 0.10;   ///< plate behind the opening
   double table_size_m = 0.7, table_height_m = 0.8;

@@ -6,6 +6,7 @@ namespace kiln {
 namespace {
 constexpr int kCylinderSides = 32;
 constexpr int kSphereRings = 12;
+constexpr int kHoleSides = 64;  // a multiple of 8: a square outline has its corners among them
 }  // namespace
 
 TriangleMesh unitBox() {
@@ -58,6 +59,29 @@ TriangleMesh unitSphere() {
       const int t = (s + 1) % sides;
       m.quad(r * sides + s, (r + 1) * sides + s, (r + 1) * sides + t, r * sides + t);
     }
+  }
+  return m;
+}
+
+TriangleMesh holedPlate(double hole_radius_m, Outline outline, double half_m, double thickness_m) {
+  TriangleMesh m;
+  for (int i = 0; i < kHoleSides; ++i) {
+    const double angle = 2.0 * M_PI * i / kHoleSides;
+    const Eigen::Vector2d direction(std::cos(angle), std::sin(angle));
+    const double outer =
+        outline == Outline::Round ? half_m : half_m / direction.cwiseAbs().maxCoeff();
+    for (const double r : {hole_radius_m, outer}) {
+      for (const double x : {-thickness_m, 0.0})
+        m.vertices.push_back(
+            Eigen::Vector3d(x, r * direction.x(), r * direction.y()).cast<float>());
+    }
+  }
+  for (int i = 0; i < kHoleSides; ++i) {
+    const int a = 4 * i, b = 4 * ((i + 1) % kHoleSides);  // hole back, front, outline back, front
+    m.quad(a + 1, a + 3, b + 3, b + 1);
+    m.quad(a, b, b + 2, a + 2);
+    m.quad(a, a + 1, b + 1, b);
+    m.quad(a + 2, b + 2, b + 3, a + 3);
   }
   return m;
 }

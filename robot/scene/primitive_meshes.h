@@ -20,4 +20,11 @@ struct TriangleMesh {
 unitCylinder();                           ///< radius 1, height 1 along Z, centred, closed; 32 sides
 [[nodiscard]] TriangleMesh unitSphere();  ///< radius 1; 12 rings of 24
 
+enum class Outline { Round, Square };
+/// A plate with a round hole, closed. X from -thickness_m to 0, the hole's axis along X.
+/// @param half_m  radius of a round outline, half the edge of a square one.
+/// @pre hole_radius_m < half_m
+[[nodiscard]] TriangleMesh holedPlate(double hole_radius_m, Outline outline, double half_m,
+                                      double thickness_m);
+
 }  // namespace kiln

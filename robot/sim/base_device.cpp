@@ -44,19 +44,26 @@ void BaseDevice::reset() {
 
 void BaseDevice::followCommand(Stamp now, double step_s) {
   watchdog_stop_ = !commanded_ || toSeconds(now - command_time_) > config_.watchdog_s;
-  if (watchdog_stop_) {
-    double fastest = 0.0;
-    for (const double w : drive_ref_) fastest = std::max(fastest, std::fabs(w));
-    const double brake = config_.stop_decel_mps2 / robot_.wheel_radius_m * step_s;
-    const double scale = fastest > brake ? 1.0 - brake / fastest : 0.0;
-    for (double& w : drive_ref_) w *= scale;  // one factor for all: the base keeps its course
-    return;
-  }
+  if (watchdog_stop_) return driveTowards({}, step_s);
   const double turn = robot_.steer_rate_deg_s * kDeg * step_s;
+  std::array<double, 4> wanted{};
   for (std::size_t i = 0; i < 4; ++i) {
     steer_ref_[i] += std::clamp(command_[i].steer_rad - steer_ref_[i], -turn, turn);
-    drive_ref_[i] = runaway_[0] * command_[i].drive_radps + runaway_[1] / robot_.wheel_radius_m;
+    wanted[i] = runaway_[0] * command_[i].drive_radps + runaway_[1] / robot_.wheel_radius_m;
   }
+  driveTowards(wanted, step_s);
+}
+
+/// No wheel slows down by more than the drives can brake; one factor for all keeps the course.
+void BaseDevice::driveTowards(const std::array<double, 4>& wanted, double step_s) {
+  const double brake = config_.max_decel_mps2 / robot_.wheel_radius_m * step_s;
+  double most = 0.0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double slower = std::copysign(1.0, drive_ref_[i]) * (drive_ref_[i] - wanted[i]);
+    most = std::max(most, std::min(slower, std::fabs(drive_ref_[i])));
+  }
+  const double share = most > brake ? brake / most : 1.0;
+  for (std::size_t i = 0; i < 4; ++i) drive_ref_[i] += share * (wanted[i] - drive_ref_[i]);
 }
 
 void BaseDevice::control(Stamp now, double step_s, Physics& physics) {

@@ -25,6 +25,7 @@ class BaseDevice {
 
  private:
   void followCommand(Stamp now, double step_s);
+  void driveTowards(const std::array<double, 4>& wanted, double step_s);
 
   BaseDeviceConfig config_;
   RobotGeometry robot_;

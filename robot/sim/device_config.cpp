@@ -19,7 +19,7 @@ void BaseDeviceConfig::visit(ConfigArchive& a) {
   a.field("steer_damping", steer_damping, "Nm s/rad", 0, 1e3, "position loop");
   a.field("max_speed_mps", max_speed_mps, "m/s", 0.1, 10, "wheel speed limit");
   a.field("watchdog_s", watchdog_s, "s", 0.01, 10, "stop so long after the last setpoint");
-  a.field("stop_decel_mps2", stop_decel_mps2, "m/s2", 0.1, 20, "ramp of that stop");
+  a.field("max_decel_mps2", max_decel_mps2, "m/s2", 0.1, 20, "brakes with, commanded or by itself");
   a.field("wheel_radius_sigma", wheel_radius_sigma, "", 0, 0.1, "relative, per wheel and seed");
   a.field("steer_offset_sigma_deg", steer_offset_sigma_deg, "deg", 0, 10, "per wheel and seed");
   a.field("battery_v", battery_v, "V", 1, 100, "open-circuit voltage");

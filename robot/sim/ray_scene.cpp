@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "robot/scene/primitive_meshes.h"
 #include "robot/sim/mjcf.h"
 
 namespace kiln::sim {
@@ -76,11 +77,25 @@ std::optional<std::size_t> RayScene::box(const Raycaster::Hit& hit) const {
   return hit.instance - boxes_.front();
 }
 
+/// The front panel with its round opening: opaque rim, then acrylic up to the frame.
+void RayScene::addFront(const TrueFirePlace& place) {
+  const double hole = 0.5 * place.opening_m, acrylic = hole + place.rim_m;
+  const auto add = [&](const TriangleMesh& mesh, Material m) {
+    note(rays_.addMesh(mesh.vertices, mesh.triangles, place.X_map_front, number(m), arenaMask(m)),
+         fire_.ambient_c);
+  };
+  add(holedPlate(hole, Outline::Round, acrylic, place.acrylic_m + 0.003), Material::Frame);
+  add(holedPlate(acrylic, Outline::Square, 0.5 * place.box_m - place.frame_m, place.acrylic_m),
+      Material::Acrylic);
+}
+
 void RayScene::addFirePlace(const TrueFirePlace& place) {
   for (const SolidBox& b : place.boxes) {
+    if (!b.visible) continue;
     note(rays_.addBox(b.size_m, b.X_map_box, number(b.material), arenaMask(b.material)),
          b.temperature_c);
   }
+  addFront(place);
   const Eigen::Vector3d p = place.p_front_plate;
   const Eigen::Isometry3d X_plate = place.X_map_front * alongZ(p - Eigen::Vector3d(0.01, 0, 0), p);
   const auto plate = note(

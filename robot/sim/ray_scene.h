@@ -59,6 +59,7 @@ class RayScene {
   Raycaster::Id note(Raycaster::Id id, double temperature_c);
   void addArena(const TrueArena& arena);
   void addFirePlace(const TrueFirePlace& place);
+  void addFront(const TrueFirePlace& place);
   void addRobot(const TrueArena& arena);
   void addCapsule(int link, const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius,
                   Material material);

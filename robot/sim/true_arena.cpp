@@ -27,17 +27,22 @@ Eigen::Isometry3d perturbedMount(const Eigen::Isometry3d& nominal, const Perturb
   return nominal * makePose(p, rpy);
 }
 
-/// Frame bars along the twelve edges and around the opening, acrylic panels between, plate and
-/// table. `half` is half the edge of the box; x runs from 0 (front) to -2 half.
+/// Frame bars along the twelve edges, acrylic panels between, and what physics has of the front
+/// panel: boxes with a square hole. x runs from 0 (front) to -box.
 void addFireBox(TrueFirePlace& place, const FireConfig& fire,
                 const Eigen::Isometry3d& X_map_front) {
-  const double box = place.box_m, half = 0.5 * box, t = fire.acrylic_thickness_m, f = fire.frame_m;
-  const auto add = [&](const char* what, Material m, Eigen::Vector3d lo, Eigen::Vector3d hi) {
+  place.frame_m = fire.frame_m;
+  place.acrylic_m = fire.acrylic_thickness_m;
+  place.rim_m = 0.6 * fire.frame_m;
+  const double box = place.box_m, half = 0.5 * box, t = place.acrylic_m, f = place.frame_m;
+  const auto add = [&](const char* what, Material m, Eigen::Vector3d lo, Eigen::Vector3d hi,
+                       bool visible = true) {
     SolidBox b;
     b.name = place.name + " " + what;
     b.material = m;
     b.X_map_box = X_map_front * Eigen::Translation3d(0.5 * (lo + hi));
     b.size_m = hi - lo;
+    b.visible = visible;
     b.temperature_c = fire.ambient_c;
     place.boxes.push_back(b);
   };
@@ -55,14 +60,10 @@ void addFireBox(TrueFirePlace& place, const FireConfig& fire,
   }
   add("back", Material::Acrylic, {-box, -half + f, -half + f}, {-box + t, half - f, half - f});
   const double o = 0.5 * place.opening_m, e = half - f;
-  const double rim = 0.6 * f;  // opaque rim of the opening
   for (const double s : {-1.0, 1.0}) {
-    const double r0 = s < 0 ? -o - rim : o, a0 = s < 0 ? -e : o + rim;
-    const double a1 = s < 0 ? -o - rim : e;
-    add("rim", Material::Frame, {-t - 0.003, r0, -o - rim}, {0, r0 + rim, o + rim});
-    add("rim", Material::Frame, {-t - 0.003, -o, r0}, {0, o, r0 + rim});
-    add("front", Material::Acrylic, {-t, a0, -e}, {0, a1, e});
-    add("front", Material::Acrylic, {-t, -o - rim, a0}, {0, o + rim, a1});
+    const double a0 = s < 0 ? -e : o, a1 = s < 0 ? -o : e;
+    add("front", Material::Acrylic, {-t, a0, -e}, {0, a1, e}, false);
+    add("front", Material::Acrylic, {-t, -o, a0}, {0, o, a1}, false);
   }
 }
 

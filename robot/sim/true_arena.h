@@ -40,8 +40,9 @@ struct SolidBox {
   Material material = Material::Wall;
   Eigen::Isometry3d X_map_box = Eigen::Isometry3d::Identity();
   Eigen::Vector3d size_m = Eigen::Vector3d::Ones();
-  bool solid = true;  ///< physics and water; false: rays only
+  bool solid = true;  ///< false: rays only
   double temperature_c = 25.0;
+  bool visible = true;  ///< false: physics only
 };
 
 /// A fire place as it truly stands. Frame `front`: centre of the opening, in the outer face of the
@@ -50,7 +51,10 @@ struct TrueFirePlace {
   std::string name;
   Eigen::Isometry3d X_map_front = Eigen::Isometry3d::Identity();
   Eigen::Vector3d p_front_plate = Eigen::Vector3d::Zero();
-  double box_m = 0.4, opening_m = 0.15, plate_m = 0.15;
+  double box_m = 0.4, plate_m = 0.15;
+  double opening_m = 0.15;  ///< diameter
+  double rim_m = 0.015;     ///< opaque ring around the opening; acrylic from there to frame_m
+  double frame_m = 0.025, acrylic_m = 0.005;
   bool burning = false;
   double reflection_ratio = 0.0;  ///< excess of the mirror image over that of the plate
   std::vector<SolidBox> boxes;    ///< table, frame, acrylic panels

@@ -41,8 +41,7 @@ bool WaterJet::throughOpening(const TrueFirePlace& place, const Eigen::Vector3d&
   if (from.x() <= 0.0 || to.x() > 0.0) return false;
   share = from.x() / (from.x() - to.x());
   const Eigen::Vector3d at = from + share * (to - from);
-  const double half = 0.5 * place.opening_m;
-  return std::fabs(at.y()) < half && std::fabs(at.z()) < half;
+  return std::hypot(at.y(), at.z()) < 0.5 * place.opening_m;
 }
 
 void WaterJet::step(double step_s, const Raycaster& scene) {
@@ -65,11 +64,12 @@ void WaterJet::step(double step_s, const Raycaster& scene) {
       double share = 0.0;
       if (!throughOpening(places_[place], drops_[i].p, next[i], share)) continue;
       const bool stopped_before = hits_[i].valid() && hits_[i].range < share * rays_[i].max_range;
-      if (!stopped_before) delivered_l_[place] += config_.drop_ml * 1e-3;
-      return true;
+      if (!stopped_before) drops_[i].inside = place;
     }
     if (hits_[i].valid()) {
       const Raycaster::Ray& ray = rays_[i];
+      if (drops_[i].inside && RayScene::material(hits_[i]) == Material::Plate)
+        delivered_l_[*drops_[i].inside] += config_.drop_ml * 1e-3;
       landings_.push_back({hits_[i], (ray.origin + hits_[i].range * ray.direction).cast<double>()});
     }
     return hits_[i].valid() || next[i].z() < kLost_m || drops_[i].age_s > config_.max_flight_s;
@@ -80,7 +80,7 @@ void WaterJet::step(double step_s, const Raycaster& scene) {
     profile_.pass(drops_[i].X_map_nozzle, drops_[i].p, next[i]);
     if (landed(i)) continue;
     flying.push_back({next[i], drops_[i].v - Eigen::Vector3d(0, 0, kGravity * step_s),
-                      drops_[i].age_s + step_s, drops_[i].X_map_nozzle});
+                      drops_[i].age_s + step_s, drops_[i].X_map_nozzle, drops_[i].inside});
   }
   drops_ = std::move(flying);
 }

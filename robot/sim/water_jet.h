@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "robot/scene/raycaster.h"
@@ -10,8 +11,8 @@
 namespace kiln::sim {
 
 /// The jet as drops of equal volume in free fall (no drag: at 0.9 m that changes the sag by under a
-/// centimetre). A drop that crosses the opening of a fire place from outside is delivered there;
-/// one that meets anything else is lost. The robot's own body does not stop drops.
+/// centimetre). A drop that crosses the round opening of a fire place from outside and then meets
+/// its plate is delivered there; any other is lost. The robot's own body does not stop drops.
 /// Thread-compatible.
 class WaterJet {
  public:
@@ -22,7 +23,7 @@ class WaterJet {
   void emit(double litres, double flow_fraction, const Eigen::Isometry3d& X_map_nozzle,
             const Eigen::Vector3d& v_nozzle);
   void step(double step_s, const Raycaster& scene);
-  /// Where drops of the last step met something, the openings' inside apart.
+  /// Where drops of the last step met something.
   struct Landing {
     Raycaster::Hit on;
     Eigen::Vector3d p_map;
@@ -40,6 +41,7 @@ class WaterJet {
     Eigen::Vector3d p, v;
     double age_s = 0.0;
     Eigen::Isometry3d X_map_nozzle = Eigen::Isometry3d::Identity();  ///< when it left
+    std::optional<std::size_t> inside;  ///< the fire place whose opening it has passed
   };
   /// Whether the way from a to b leads inwards through the opening; then the share of the way at
   /// which it does.

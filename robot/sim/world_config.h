@@ -31,8 +31,8 @@ struct BaseDeviceConfig {
   double steer_gain = 800.0;    ///< Nm per rad
   double steer_damping = 15.0;  ///< Nm per rad/s
   double max_speed_mps = 4.0;
-  double watchdog_s = 0.25;  ///< stop so long after the last setpoint
-  double stop_decel_mps2 = 2.5;
+  double watchdog_s = 0.25;           ///< stop so long after the last setpoint
+  double max_decel_mps2 = 2.0;        ///< of the wheels, commanded or by itself
   double wheel_radius_sigma = 0.005;  ///< relative, per wheel
   double steer_offset_sigma_deg = 0.3;
   double battery_v = 29.6, battery_ohm = 0.05, idle_a = 3.0;

@@ -14,8 +14,7 @@ double temperatureAlong(const ThermalScene& s, const Eigen::Vector3d& eye,
   // In the plate frame. The box's front lies at z = recess, the plate at z = 0.
   if (ray.z() >= 0 || eye.z() <= s.recess_m) return s.ambient_k;
   const Eigen::Vector3d front = eye + ray * ((s.recess_m - eye.z()) / ray.z());
-  const Eigen::Vector2d beside = (front.head<2>() - s.opening_offset_m).cwiseAbs();
-  if (beside.maxCoeff() > 0.5 * s.opening_m) return s.ambient_k;
+  if ((front.head<2>() - s.opening_offset_m).norm() > 0.5 * s.opening_m) return s.ambient_k;
   const Eigen::Vector3d mid = eye + ray * ((0.5 * s.recess_m - eye.z()) / ray.z());
   if (s.flame_k > 0 && std::abs(mid.x()) < 0.04 && mid.y() > 0.0 && mid.y() < 0.06)
     return s.flame_k;

@@ -15,7 +15,7 @@ struct WarmDisc {
   double kelvin = 330;
 };
 
-/// A hot plate behind the square opening of an opaque box, seen by a Lepton. Plate frame: origin in
+/// A hot plate behind the round opening of an opaque box, seen by a Lepton. Plate frame: origin in
 /// the plate's centre, Z out through the opening, X horizontal.
 struct ThermalScene {
   Eigen::Isometry3d X_map_plate = Eigen::Isometry3d::Identity();

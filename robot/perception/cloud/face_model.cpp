@@ -1,6 +1,7 @@
 #include "robot/perception/cloud/face_model.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace kiln {
 
@@ -21,9 +22,25 @@ void appendBoxFaces(std::vector<Face>& faces, const Eigen::Vector3d& low,
   }
 }
 
+/// The front of a flat ring about X, as rectangles side by side.
+void appendRingFront(std::vector<Face>& faces, double inner_radius, double width) {
+  constexpr int kSides = 12;
+  for (int i = 0; i < kSides; ++i) {
+    const double angle = 2.0 * M_PI * i / kSides;
+    Face face;
+    face.n = Eigen::Vector3d::UnitX();
+    face.u = Eigen::Vector3d(0, std::cos(angle), std::sin(angle));
+    face.v = face.n.cross(face.u);
+    face.half_u = 0.5 * width;
+    face.centre = (inner_radius + face.half_u) * face.u;
+    face.half_v = face.centre.norm() * std::tan(M_PI / kSides);
+    faces.push_back(face);
+  }
+}
+
 std::vector<Face> fireBoxFaces(const FireBoxSizes& s) {
   std::vector<Face> faces;
-  const double half = 0.5 * s.box, f = s.bar, o = 0.5 * s.opening, r = s.rim;
+  const double half = 0.5 * s.box, f = s.bar;
   for (const double side : {-1.0, 1.0}) {
     const double y0 = side < 0 ? -half : half - f;
     for (const double z0 : {-half, half - f})  // along X
@@ -32,10 +49,8 @@ std::vector<Face> fireBoxFaces(const FireBoxSizes& s) {
       appendBoxFaces(faces, {x0, y0, -half + f}, {x0 + f, y0 + f, half - f});  // upright
       appendBoxFaces(faces, {x0, -half + f, y0}, {x0 + f, half - f, y0 + f});  // along Y
     }
-    const double r0 = side < 0 ? -o - r : o;
-    appendBoxFaces(faces, {-0.008, r0, -o - r}, {0, r0 + r, o + r});
-    appendBoxFaces(faces, {-0.008, -o, r0}, {0, o, r0 + r});
   }
+  appendRingFront(faces, 0.5 * s.opening, s.rim);
   appendBoxFaces(faces, {s.table_ahead - s.table, -0.5 * s.table, -half - s.table_height},
                  {s.table_ahead, 0.5 * s.table, -half});
   return faces;

@@ -28,7 +28,7 @@ void appendBoxFaces(std::vector<Face>& faces, const Eigen::Vector3d& low,
 
 /// Sizes of a fire place; metres.
 struct FireBoxSizes {
-  double box = 0.4, opening = 0.15;
+  double box = 0.4, opening = 0.15;                            ///< edge; diameter
   double bar = 0.025;                                          ///< opaque frame along the edges
   double rim = 0.015;                                          ///< opaque rim around the opening
   double recess = 0.10;                                        ///< plate behind the opening

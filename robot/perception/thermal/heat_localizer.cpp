@@ -34,7 +34,7 @@ bool touchesBorder(const HeatBlob& blob) {
 
 void HeatLocalizer::Config::visit(ConfigArchive& a) {
   a.field("plate_diameter_m", plate_diameter_m, "m", 0.01, 1, "hot plate");
-  a.field("opening_m", opening_m, "m", 0.01, 1, "edge of the square opening");
+  a.field("opening_m", opening_m, "m", 0.01, 1, "diameter of the round opening");
   a.field("recess_m", recess_m, "m", 0, 1, "plate behind the opening");
   a.field("hfov_deg", hfov_deg, "deg", 10, 120, "thermal camera's horizontal field of view");
   a.field("min_views", min_views, "", 1, 200, "pictures that must agree");

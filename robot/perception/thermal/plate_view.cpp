@@ -1,47 +1,39 @@
 #include "robot/perception/thermal/plate_view.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 namespace kiln::thermal {
 namespace {
 
-constexpr std::size_t kCorners = 28;  // of the polygon that stands for the disc
+constexpr std::size_t kArcCorners = 17;
 
-/// A convex polygon without allocation: this runs thousands of times a fit. Each clip adds at most
-/// one corner.
+/// A convex polygon without allocation: this runs thousands of times a fit.
 struct Polygon {
-  std::array<Eigen::Vector2d, kCorners + 8> corners;
+  std::array<Eigen::Vector2d, 2 * kArcCorners> corners;
   std::size_t size = 0;
   void push(const Eigen::Vector2d& p) { corners[size++] = p; }
 };
 
-/// Corners of a polygon that has the area of the unit disc.
-const std::array<Eigen::Vector2d, kCorners>& unitDisc() {
-  static const auto disc = [] {
-    std::array<Eigen::Vector2d, kCorners> out;
-    const double step = 2 * M_PI / kCorners;
-    const double radius = std::sqrt(step / std::sin(step));
-    for (std::size_t i = 0; i < kCorners; ++i) {
-      const double angle = step * static_cast<double>(i);
-      out[i] = radius * Eigen::Vector2d(std::cos(angle), std::sin(angle));
-    }
-    return out;
-  }();
-  return disc;
+/// Appends the arc of a circle that lies within `half_angle` of `towards`, counter-clockwise, as
+/// corners that enclose its sector's area.
+void pushArc(Polygon& polygon, const Eigen::Vector2d& centre, double radius, double towards,
+             double half_angle) {
+  if (half_angle <= 0.0) return;
+  const double step = 2.0 * half_angle / (kArcCorners - 1);
+  const double enclosing = radius * std::sqrt(step / std::sin(step));
+  for (std::size_t i = 0; i < kArcCorners; ++i) {
+    const double angle = towards - half_angle + step * static_cast<double>(i);
+    polygon.push(centre + enclosing * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
+  }
 }
 
-/// Keeps the part where sign * p[axis] <= limit (Sutherland and Hodgman).
-Polygon clip(const Polygon& in, int axis, double sign, double limit) {
-  Polygon out;
-  for (std::size_t i = 0; i < in.size; ++i) {
-    const Eigen::Vector2d& a = in.corners[i];
-    const Eigen::Vector2d& b = in.corners[i + 1 < in.size ? i + 1 : 0];
-    const double da = sign * a[axis] - limit, db = sign * b[axis] - limit;
-    if (da <= 0) out.push(a);
-    if ((da < 0 && db > 0) || (da > 0 && db < 0)) out.push(a + (b - a) * (da / (da - db)));
-  }
-  return out;
+/// Half the angle of the circle of radius `r` that lies inside a circle of radius `other` whose
+/// centre is `distance` away.
+double halfAngleInside(double r, double other, double distance) {
+  const double cosine = (distance * distance + r * r - other * other) / (2.0 * distance * r);
+  return std::acos(std::clamp(cosine, -1.0, 1.0));
 }
 
 }  // namespace
@@ -51,15 +43,17 @@ std::optional<PlateObservation> viewPlate(const PlateModel& model, const CameraM
   const Eigen::Vector3d eye =
       X_camera_plate.inverse().translation();  // the camera, in the plate frame
   if (!(eye.z() > model.recess_m + 0.01)) return std::nullopt;
-  Polygon visible;
-  for (const auto& p : unitDisc()) visible.push(0.5 * model.diameter_m * p);
-  // The opening seen from the eye, projected on the plate's plane: a square again.
+  // The opening seen from the eye, projected on the plate's plane: a circle again.
   const double scale = eye.z() / (eye.z() - model.recess_m);
-  const double half = 0.5 * model.opening_m * scale;
-  for (int axis = 0; axis < 2; ++axis) {
-    const double centre = eye[axis] * (1.0 - scale);
-    visible = clip(visible, axis, 1.0, half + centre);
-    visible = clip(visible, axis, -1.0, half - centre);
+  const double plate = 0.5 * model.diameter_m, opening = 0.5 * model.opening_m * scale;
+  const Eigen::Vector2d centre = eye.head<2>() * (1.0 - scale);
+  const double distance = std::max(1e-9, centre.norm()),
+               towards = std::atan2(centre.y(), centre.x());
+  Polygon visible;
+  if (distance < plate + opening) {
+    pushArc(visible, Eigen::Vector2d::Zero(), plate, towards,
+            halfAngleInside(plate, opening, distance));
+    pushArc(visible, centre, opening, towards + M_PI, halfAngleInside(opening, plate, distance));
   }
   if (visible.size < 3) return std::nullopt;
   for (std::size_t i = 0; i < visible.size; ++i) {

@@ -12,7 +12,7 @@ namespace kiln::thermal {
 /// centre, Z out through the opening, X horizontal, Y up.
 struct PlateModel {
   double diameter_m = 0.15;
-  double opening_m = 0.15;     ///< edge of the square opening, parallel to the plate
+  double opening_m = 0.15;     ///< diameter of the round opening, parallel to the plate
   double recess_m = 0.10;      ///< plate behind the opening
   double psf_sigma_px = 0.58;  ///< optics and pixel together
 };
@@ -24,8 +24,8 @@ struct PlateObservation {
 };
 
 /// The part of the plate that is visible through the opening, as an image: the disc is clipped by
-/// the opening's shadow (which wanders across the plate as the camera moves off the axis), then
-/// projected. The blur shrinks the half-maximum area of a disc by pi * sigma^2.
+/// the opening's shadow (a disc too; it wanders across the plate as the camera moves off the axis),
+/// then projected. The blur shrinks the half-maximum area of a disc by pi * sigma^2.
 /// @return nullopt if the camera is not in front of the opening or nothing of the plate is visible.
 [[nodiscard]] std::optional<PlateObservation> viewPlate(const PlateModel& model,
                                                         const CameraModel& camera,
