@@ -12,13 +12,16 @@ Result<std::string> resourcePath(const std::string& relative) {
   namespace fs = std::filesystem;
   std::error_code ec;
   std::vector<std::string> tried;
-  const fs::path program = fs::read_symlink("/proc/self/exe", ec).parent_path();
   std::vector<fs::path> roots;
-  if (const char* env = std::getenv("KILN_RESOURCES")) roots.emplace_back(env);
-  for (const char* up : {"../resources", "../../resources", "../../../resources"})
-    roots.push_back(program / up);
-  roots.push_back(program / "../share/kiln");
-  roots.push_back(KILN_RESOURCE_DIR);
+  if (const char* env = std::getenv("KILN_RESOURCES")) {
+    roots.emplace_back(env);  // and no other: half of it from elsewhere would be another robot
+  } else {
+    const fs::path program = fs::read_symlink("/proc/self/exe", ec).parent_path();
+    for (const char* up : {"../resources", "../../resources", "../../../resources"})
+      roots.push_back(program / up);
+    roots.push_back(program / "../share/kiln");
+    roots.push_back(KILN_RESOURCE_DIR);
+  }
   for (const fs::path& root : roots) {
     const fs::path path = (root / relative).lexically_normal();
     if (fs::exists(path, ec)) return path.string();

@@ -8,8 +8,8 @@
 namespace kiln {
 
 /// Absolute path of a file below resources/, e.g. resourcePath("robot_model/bob.yaml"). Looked up
-/// in $KILN_RESOURCES, then in the source tree that the running program was built from
-/// (<bin>/../../resources), then in <bin>/../share/kiln. Error: names every place that was tried.
+/// in $KILN_RESOURCES alone where that is set, else in the source tree that the program was built
+/// from (<bin>/../../resources), then in <bin>/../share/kiln. Error: names each place tried.
 [[nodiscard]] Result<std::string> resourcePath(const std::string& relative);
 
 /// A config struct read from a file below resources/. Errors: those of resourcePath and loadConfig.

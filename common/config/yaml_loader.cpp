@@ -1,15 +1,13 @@
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <optional>
 #include <set>
-#include <sstream>
 
 #include <fmt/ranges.h>
 #include <yaml-cpp/yaml.h>
 
 #include "common/config/config_archive.h"
+#include "common/core/regular_file.h"
 
 namespace kiln {
 namespace {
@@ -176,18 +174,10 @@ Result<void> overrideYaml(const std::string& key_and_value, const ConfigNode& ro
 }
 
 Result<void> loadYaml(const std::string& path, const ConfigNode& root) {
-  std::error_code ec;
-  if (!std::filesystem::is_regular_file(path, ec)) {
-    return makeError(ErrorCode::NotFound, "{}: no such config file; check the path", path);
-  }
-  constexpr std::uintmax_t kMaxBytes = 1u << 20;
-  if (std::filesystem::file_size(path, ec) > kMaxBytes)
-    return makeError(ErrorCode::InvalidInput, "{}: larger than 1 MiB; no config file is", path);
-  std::ifstream in(path);
-  if (!in) return makeError(ErrorCode::NotFound, "{}: cannot be read; check its permissions", path);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return loadYamlText(text.str(), path, root);
+  constexpr std::uint64_t kMostBytes = 1U << 20;
+  const auto text = readRegularFile(path, kMostBytes);
+  if (!text) return tl::make_unexpected(text.error());
+  return loadYamlText(*text, path, root);
 }
 
 }  // namespace kiln

@@ -3,6 +3,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -30,9 +31,25 @@ void syncFolderOf(const std::string& path) {
   close(fd);
 }
 
+/// What `named` stands for when it is a link.
+Result<std::string> fileToReplace(const std::string& named) {
+  std::error_code ec;
+  const auto found = std::filesystem::status(named, ec);
+  if (!std::filesystem::exists(found)) return named;
+  if (!std::filesystem::is_regular_file(found))
+    return makeError(ErrorCode::Storage, "cannot write {}: not a regular file; name another",
+                     named);
+  if (!std::filesystem::is_symlink(std::filesystem::symlink_status(named, ec))) return named;
+  const auto target = std::filesystem::canonical(named, ec);
+  return ec ? named : target.string();
+}
+
 }  // namespace
 
-Result<void> writeFileAtomically(const std::string& path, const std::string& text, bool durable) {
+Result<void> writeFileAtomically(const std::string& named, const std::string& text, bool durable) {
+  const auto replaced = fileToReplace(named);
+  if (!replaced) return tl::make_unexpected(replaced.error());
+  const std::string& path = *replaced;
   const std::string temporary = path + ".tmp";
   const int fd = open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (fd < 0) {

@@ -6,8 +6,8 @@
 
 namespace kiln {
 
-/// Writes the whole text or nothing: temporary file beside `path`, fsync, rename, fsync of the
-/// folder. Error: Storage, with the system's reason; an existing file stays as it was.
+/// Replaces a regular file (a link's target, never a device, pipe or folder) by the whole text or
+/// not at all: temporary file, fsync, rename. Error: Storage, with the system's reason.
 /// @param durable  false skips both fsyncs: survives kill -9 of the process, not a power cut.
 [[nodiscard]] Result<void> writeFileAtomically(const std::string& path, const std::string& text,
                                                bool durable = true);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "common/config/required_keys.h"
+
 namespace kiln {
 namespace {
 
@@ -72,6 +74,10 @@ Result<RobotGeometry> loadCalibrated(const std::string& path, const RobotGeometr
   RobotCalibration calibration = RobotCalibration::of(nominal);
   if (auto loaded = loadConfig(path, calibration); !loaded)
     return tl::make_unexpected(loaded.error());
+  if (auto complete = requireKeys(
+          path, {"X_flange_lidar", "X_flange_thermal", "X_flange_nozzle", "X_base_operatorcamera"});
+      !complete)
+    return tl::make_unexpected(complete.error());
   auto applied = calibration.applyTo(nominal);
   if (!applied) return makeError(applied.error().code, "{}: {}", path, applied.error().message);
   return applied;

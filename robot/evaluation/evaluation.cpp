@@ -36,6 +36,11 @@ const std::vector<Evaluation>& evaluations() {
        "is a misplaced fire box refused before the arm unfolds, and a normal one never",
        evaluatePlaceCheck,
        {1, 50, 1, ""}},
+      {"resume",
+       "fire missions whose daemon is killed (SIGKILL) and goes on with --resume: a seed's five at "
+       "random moments and three on the approach to the building",
+       evaluateResume,
+       {1, 10, 1, ""}},
       {"calibrate",
        "finds the mounting of LiDAR and thermal camera by moving the arm; --out FILE is for "
        "kiln-robotd --calibration",

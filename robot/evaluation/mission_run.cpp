@@ -60,7 +60,7 @@ struct Folder {
         options.robot_args.begin(), options.robot_args.end(),
         [](const std::string& argument) { return argument.starts_with("--localization"); });
   }
-  [[nodiscard]] std::vector<std::string> robotCommand() const {
+  [[nodiscard]] std::vector<std::string> robotCommand(bool resume) const {
     std::vector<std::string> argv{program("kiln-robotd"),
                                   "--sim",
                                   "ipc://" + file("world"),
@@ -75,6 +75,7 @@ struct Folder {
                                   "--listen",
                                   "ipc://" + file("link")};
     if (options.lockstep) argv.emplace_back("--lockstep");
+    if (resume) argv.emplace_back("--resume");
     if (isFlat(options.world)) argv.emplace_back("--flat-ground");
     if (isFlat(options.world) && !choosesLocalization()) {
       argv.insert(argv.end(), {"--localization", "walls"});  // the shipped map has the ramp
@@ -110,6 +111,45 @@ json mergeReports(const MissionRunOptions& options, const json& robot, const jso
               {"score", truth.at("score")}};
 }
 
+/// Follows the world's trace while it grows.
+class TraceTail {
+ public:
+  explicit TraceTail(std::string path) : path_(std::move(path)) {}
+  /// Where the base was in the newest whole line.
+  [[nodiscard]] std::optional<Kill> newest() {
+    if (!in_.is_open()) in_.open(path_);
+    in_.clear();
+    for (std::string part; std::getline(in_, part);) {
+      line_ += part;
+      if (in_.eof()) break;  // the rest is still to come
+      const json sample = json::parse(line_, nullptr, false);
+      line_.clear();
+      if (sample.is_object())
+        last_ = Kill{sample.at("t").get<double>(), sample.at("base").at("xyz_m").at(0)};
+    }
+    return last_;
+  }
+
+ private:
+  std::string path_, line_;
+  std::ifstream in_;
+  std::optional<Kill> last_;
+};
+
+/// Kills the daemon at its time and starts it again. @return where that was; nullopt: not yet.
+Result<std::optional<Kill>> killAndResume(const Folder& folder, TraceTail& tail,
+                                          std::optional<ChildProcess>& robot) {
+  const auto where = tail.newest();
+  const Kill& wanted = *folder.options.kill;
+  if (!where || (where->at_s < wanted.at_s && where->at_x_m < wanted.at_x_m)) return std::nullopt;
+  robot->signal(SIGKILL);
+  (void)robot->wait(std::chrono::seconds(5));
+  auto again = ChildProcess::start(folder.robotCommand(true), folder.file("robotd.log"));
+  if (!again) return tl::make_unexpected(again.error());
+  robot.emplace(std::move(*again));
+  return tail.newest();
+}
+
 }  // namespace
 
 Result<MissionRun> runMission(const MissionRunOptions& options) {
@@ -118,12 +158,19 @@ Result<MissionRun> runMission(const MissionRunOptions& options) {
   const Stamp begin = clock.now();
   auto world = ChildProcess::start(folder.worldCommand(), folder.file("sim.log"));
   if (!world) return tl::make_unexpected(world.error());
-  auto robot = ChildProcess::start(folder.robotCommand(), folder.file("robotd.log"));
-  if (!robot) return tl::make_unexpected(robot.error());
+  auto started = ChildProcess::start(folder.robotCommand(false), folder.file("robotd.log"));
+  if (!started) return tl::make_unexpected(started.error());
+  std::optional<ChildProcess> robot(std::move(*started));
 
   MissionRun run;
+  TraceTail tail(folder.file("trace.jsonl"));
   const Stamp deadline = begin + fromSeconds(options.wall_limit_s);
-  while (!robot->wait(std::chrono::milliseconds(200))) {
+  while (!robot->wait(std::chrono::milliseconds(options.kill && !run.killed ? 2 : 200))) {
+    if (options.kill && !run.killed) {
+      auto killed = killAndResume(folder, tail, robot);
+      if (!killed) return tl::make_unexpected(killed.error());
+      run.killed = *killed;
+    }
     run.robot_cpu_s = robot->cpuSeconds().value_or(run.robot_cpu_s);
     run.sim_cpu_s = world->cpuSeconds().value_or(run.sim_cpu_s);
     if (!world->running()) {
@@ -156,6 +203,7 @@ Result<MissionRun> runMission(const MissionRunOptions& options) {
   const json timing = json::parse(readAll(folder.file("robot.json.timing")), nullptr, false);
   if (timing.is_object()) run.locate_s = timing.value("locate_s", std::vector<double>{});
   if (options.trace) run.trace_jsonl = readAll(folder.file("trace.jsonl"));
+  run.checkpoint_json = readAll(folder.file("state/" + options.mission + ".checkpoint"));
   return run;
 }
 

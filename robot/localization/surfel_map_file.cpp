@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 
 #include <zstd.h>
 
 #include "common/core/atomic_file.h"
+#include "common/core/regular_file.h"
 #include "robot/localization/surfel_rows.h"
 
 namespace kiln {
@@ -16,6 +15,7 @@ namespace {
 constexpr std::string_view kMagic = "KILNSMAP";
 constexpr std::size_t kHeaderSize = 8 + 4 + 8 + 8 + 8;
 constexpr std::uint64_t kMaxRawSize = 256ULL << 20U;
+constexpr std::uint64_t kMostBytes = 256ULL << 20U;  // of a file; the shipped map has 1 MB
 constexpr std::size_t kMaxSegments = 16;
 constexpr int kCompression = 19;
 
@@ -170,10 +170,9 @@ Result<void> saveMap(const LocalizationMap& map, const std::string& path, int mi
 }
 
 Result<LocalizationMap> loadMap(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return makeError(ErrorCode::NotFound, "{}: the map cannot be opened", path);
-  const std::string bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  return decodeMap(bytes, path);
+  const auto bytes = readRegularFile(path, kMostBytes);
+  if (!bytes) return tl::make_unexpected(bytes.error());
+  return decodeMap(*bytes, path);
 }
 
 }  // namespace kiln

@@ -26,17 +26,20 @@ void MotionWatch::Config::visit(ConfigArchive& a) {
   a.field("lag_s", lag_s, "s", 0, 3, "the wheels may follow a command within this time");
   a.field("speed_tolerance_mps", speed_tolerance_mps, "m/s", 0.02, 4, "wheels against command");
   a.field("yaw_tolerance_radps", yaw_tolerance_radps, "rad/s", 0.02, 4, "wheels against command");
-  a.field("share", share, "", 0, 2, "and so much of the commanded speed");
+  a.field("share", share, "", 0, 2, "or so much of the commanded speed, whichever is more");
   a.field("hold_s", hold_s, "s", 0, 5, "a disagreement counts after this long");
   a.field("window_s", window_s, "s", 0.2, 20, "wheels against localisation over this time");
   a.field("way_tolerance_m", way_tolerance_m, "m", 0.05, 5, "wheels against localisation");
   a.field("way_share", way_share, "", 0, 2, "and so much of the way");
   a.field("turn_tolerance_deg", turn_tolerance_deg, "deg", 1, 90, "wheels against localisation");
+  a.field("way_hold_s", way_hold_s, "s", 0, 20,
+          "wheels against localisation counts after this long; a drive that is stuck ends before");
 }
 
 void MotionWatch::restart() {
   samples_.clear();
   disagree_since_.reset();
+  slips_since_.reset();
 }
 
 /// Each component must lie between the least and the greatest command of the last lag_s: a base
@@ -56,14 +59,9 @@ std::string MotionWatch::wheelsAgainstCommand(const Input& input) {
                                 outside(input.measured.vy_mps, low.vy_mps, high.vy_mps));
   const double turn = outside(input.measured.wz_radps, low.wz_radps, high.wz_radps);
   const double rate = std::max(std::abs(low.wz_radps), std::abs(high.wz_radps));
-  const bool drives = off > config_.speed_tolerance_mps + config_.share * speed;
-  const bool turns = turn > config_.yaw_tolerance_radps + config_.share * rate;
-  if (!drives && !turns) {
-    disagree_since_.reset();
-    return {};
-  }
-  if (!disagree_since_) disagree_since_ = input.stamp;
-  if (toSeconds(input.stamp - *disagree_since_) < config_.hold_s) return {};
+  const bool drives = off > std::max(config_.speed_tolerance_mps, config_.share * speed);
+  const bool turns = turn > std::max(config_.yaw_tolerance_radps, config_.share * rate);
+  if (!lasts(disagree_since_, drives || turns, config_.hold_s, input.stamp)) return {};
   return drives ? fmt::format("the base moves at {:.2f} m/s where {:.2f} m/s are commanded",
                               speedOf(input.measured), speedOf(input.commanded))
                 : fmt::format("the base turns at {:.2f} rad/s where {:.2f} rad/s are commanded",
@@ -98,13 +96,24 @@ std::string MotionWatch::wheelsAgainstLocalisation(const Input& input) const {
   return {};
 }
 
+/// Notes since when something is so. @return whether that is `hold_s` ago.
+bool MotionWatch::lasts(std::optional<Stamp>& since, bool now_so, double hold_s, Stamp now) {
+  if (!now_so)
+    since.reset();
+  else if (!since)
+    since = now;
+  return since && toSeconds(now - *since) >= hold_s;
+}
+
 std::string MotionWatch::step(const Input& input) {
   if (!isFinite(input.measured) || !isFinite(input.commanded) || !isFinite(input.X_odom_base) ||
       (input.X_map_base && !isFinite(*input.X_map_base)))
     return "the motion of the base is not a number";
   if (!samples_.empty() && input.stamp < samples_.back().stamp) restart();
   std::string wrong = wheelsAgainstCommand(input);
-  if (wrong.empty()) wrong = wheelsAgainstLocalisation(input);
+  const std::string slips = wheelsAgainstLocalisation(input);
+  if (lasts(slips_since_, !slips.empty(), config_.way_hold_s, input.stamp) && wrong.empty())
+    wrong = slips;
   samples_.push_back({input.stamp, input.commanded, input.X_odom_base, input.X_map_base});
   while (toSeconds(input.stamp - samples_.front().stamp) >
          std::max(config_.window_s, config_.lag_s))

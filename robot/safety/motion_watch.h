@@ -18,14 +18,15 @@ class MotionWatch {
  public:
   struct Config {
     double lag_s = 0.35;  ///< the wheels may follow a command within this time
-    double speed_tolerance_mps = 0.25;
-    double yaw_tolerance_radps = 0.30;
-    double share = 0.35;    ///< and so much of the commanded speed
+    double speed_tolerance_mps = 0.08;
+    double yaw_tolerance_radps = 0.18;
+    double share = 0.5;     ///< or so much of the commanded speed, whichever is more
     double hold_s = 0.35;   ///< a disagreement counts after this long
     double window_s = 2.0;  ///< wheels against localisation over this time
     double way_tolerance_m = 0.35;
     double way_share = 0.30;  ///< and so much of the way
     double turn_tolerance_deg = 10.0;
+    double way_hold_s = 1.0;  ///< counts after this long: a mission that is stuck stops by itself
     void visit(ConfigArchive& a);
   };
   struct Input {
@@ -49,12 +50,14 @@ class MotionWatch {
     Pose2 X_odom_base;
     std::optional<Pose2> X_map_base;
   };
+  [[nodiscard]] static bool lasts(std::optional<Stamp>& since, bool now_so, double hold_s,
+                                  Stamp now);
   [[nodiscard]] std::string wheelsAgainstCommand(const Input& input);
   [[nodiscard]] std::string wheelsAgainstLocalisation(const Input& input) const;
 
   Config config_;
   std::deque<Sample> samples_;
-  std::optional<Stamp> disagree_since_;
+  std::optional<Stamp> disagree_since_, slips_since_;
 };
 
 }  // namespace kiln

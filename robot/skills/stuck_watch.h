@@ -1,12 +1,14 @@
 #pragma once
 
+#include <deque>
+
 #include "common/core/stamp.h"
 #include "common/geom/pose.h"
 
 namespace kiln {
 
 /// Does the base go where its wheels are told to? Compares the commanded way with what the wheels
-/// report and with what the pose says, over windows of time. Confined to the mission thread.
+/// report and with what the pose says, at each tick over the last window of time. Confined to the mission thread.
 class StuckWatch {
  public:
   struct Config {
@@ -18,17 +20,20 @@ class StuckWatch {
 
   void restart(Stamp now, const Pose2& X_map_base);
   /// Call each tick, `dt_s` after the last one.
-  /// @return a window has ended in which too little of the commanded way was covered.
+  /// @return too little of the way commanded in the last window was covered.
   [[nodiscard]] bool update(Stamp now, double dt_s, const Pose2& X_map_base,
                             const Twist2& commanded, const Twist2& measured);
 
  private:
+  struct Sample {
+    Stamp stamp;
+    Pose2 X_map_base;
+    double commanded_m = 0.0, measured_m = 0.0;  ///< since the restart
+  };
   [[nodiscard]] double speed(const Twist2& twist) const;
 
   Config config_;
-  Stamp begin_;
-  Pose2 from_;
-  double commanded_m_ = 0.0, measured_m_ = 0.0;
+  std::deque<Sample> samples_;
 };
 
 }  // namespace kiln

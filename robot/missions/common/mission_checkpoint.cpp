@@ -2,12 +2,13 @@
 
 #include <zlib.h>
 
-#include "robot/world_model/read_file.h"
+#include "common/core/regular_file.h"
 
 namespace kiln {
 namespace {
 using nlohmann::json;
 constexpr const char* kFormat = "kiln-mission-checkpoint";
+constexpr std::uint64_t kMostBytes = 16U << 20;
 
 /// Objects are kept sorted and numbers are printed to come back as they were: what was read dumps
 /// to the text that was written.
@@ -108,7 +109,7 @@ Result<MissionCheckpoint> decodeCheckpoint(const std::string& text, const std::s
 }
 
 Result<MissionCheckpoint> loadCheckpoint(const std::string& path) {
-  const auto text = readWholeFile(path);
+  const auto text = readRegularFile(path, kMostBytes);
   if (!text) return tl::make_unexpected(text.error());
   return decodeCheckpoint(*text, path);
 }

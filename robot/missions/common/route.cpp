@@ -6,6 +6,9 @@
 namespace kiln {
 namespace {
 constexpr double kSample_m = 0.05;
+constexpr double kRunUp_m = 0.6;       // of a wheel's centre before the edge
+constexpr double kBeforeEdge_m = 0.3;  // nearer than this it has no speed when it gets there
+constexpr double kOnEdge_m = 0.05;     // beyond this it is over it
 
 /// Distance on the ground from a point to a box's footprint; 0 inside.
 double groundDistance(const BoxConfig& box, double x_m, double y_m) {
@@ -81,6 +84,23 @@ std::vector<Pose2> remaining(const Pose2& start, const std::vector<Pose2>& route
   }
   return {route.begin() + static_cast<std::ptrdiff_t>(std::min(nearest, route.size())),
           route.end()};
+}
+
+std::optional<Pose2> runUp(const ApproachConfig& approach, const RobotGeometry& robot,
+                           const Pose2& here, const Pose2& to) {
+  if (approach.edge_m <= 0.0) return std::nullopt;
+  double back_m = 0.0;
+  for (const double x_m : {robot.wheel_x_m, -robot.wheel_x_m}) {
+    for (const double y_m : {robot.wheel_y_m, -robot.wheel_y_m}) {
+      const Pose2 X_base_wheel{x_m, y_m, 0.0};
+      const double before_m = approach.edge_x_m - (here * X_base_wheel).x_m;
+      const bool crosses = (to * X_base_wheel).x_m > approach.edge_x_m + kOnEdge_m;
+      if (crosses && before_m < kBeforeEdge_m && before_m > -kOnEdge_m)
+        back_m = std::max(back_m, kRunUp_m - before_m);
+    }
+  }
+  if (back_m <= 0.0) return std::nullopt;
+  return Pose2{here.x_m - back_m, here.y_m, here.yaw_rad};
 }
 
 std::vector<Pose2> routeToPlace(const ArenaMap& arena, const Pose2& here, int from_place,

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "common/geom/pose.h"
+#include "common/robot_model/robot_geometry.h"
 #include "robot/scene/arena_map.h"
 
 namespace kiln {
@@ -21,6 +23,11 @@ namespace kiln {
 /// @param start  where the polyline begins.
 [[nodiscard]] std::vector<Pose2> remaining(const Pose2& start, const std::vector<Pose2>& route,
                                            const Pose2& here);
+
+/// Where to back up to before a drive from `here` towards `to`: from rest a wheel that stands
+/// against the edge of the approach spins and does not climb. nullopt: none does.
+[[nodiscard]] std::optional<Pose2> runUp(const ApproachConfig& approach, const RobotGeometry& robot,
+                                         const Pose2& here, const Pose2& to);
 
 /// From inside the building to the work pose of a place. When `from_place` >= 0 its way-points lead
 /// back to the hub.

@@ -21,8 +21,7 @@ FireContext::FireContext(const FireDevices& fire_devices, const FireConfig& fire
       belief(initialFireBelief(fire_devices.arena)),
       heat(fire_devices.heat),
       look(fire_config.search.motion, fire_devices.robot, fire_devices.arm),
-      drive(fire_devices.robot, fire_devices.base, fire_devices.arm, fire_devices.arm_device,
-            fire_config.drive.stow_tolerance_deg * kDeg) {}
+      drive(fire_devices, fire_config.drive.stow_tolerance_deg * kDeg) {}
 
 const FirePlace& FireContext::place() const {
   const FirePlace* current = belief.currentPlace();

@@ -15,9 +15,7 @@ constexpr double kStowed_rad = 0.035;
 class ToyMission final : public Mission {
  public:
   ToyMission(const ToyConfig& config, const std::string& mission_uuid, const MissionParts& parts)
-      : context_{config,
-                 {parts.robot, parts.base, parts.arm, parts.arm_device, kStowed_rad},
-                 parts.pose},
+      : context_{config, {parts, kStowed_rad}, parts.pose},
         machine_({.mission = "toy", .mission_uuid = mission_uuid}, parts.clock, context_) {}
 
   [[nodiscard]] Machine& machine() override { return machine_; }

@@ -3,18 +3,19 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include <opencv2/imgcodecs.hpp>
 
+#include "common/core/regular_file.h"
+#include "robot/drivers/lepton/codec/picture_size.h"
 #include "robot/drivers/lepton/codec/tjsn.h"
 
 namespace kiln::lepton {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr std::uintmax_t kLargestFile = 64u << 20;
+constexpr std::uint64_t kLargestFile = 64u << 20;
+constexpr std::uint32_t kLongestSide_px = 4096;
 
 std::string extensionOf(const fs::path& path) {
   std::string out = path.extension().string();
@@ -28,26 +29,18 @@ bool isPicture(const fs::path& path) {
   return e == ".png" || e == ".tif" || e == ".tiff";
 }
 
-Result<std::vector<char>> readAll(const std::string& path) {
-  std::error_code ec;
-  const auto size = fs::file_size(path, ec);
-  if (ec) return makeError(ErrorCode::NotFound, "{}: cannot be read ({})", path, ec.message());
-  if (size > kLargestFile)
-    return makeError(ErrorCode::InvalidInput, "{}: {} bytes are too many for a still", path, size);
-  std::ifstream in(path, std::ios::binary);
-  if (!in)
-    return makeError(ErrorCode::NotFound, "{}: cannot be opened; check its permissions", path);
-  return std::vector<char>(std::istreambuf_iterator<char>(in), {});
-}
-
-Result<LeptonFrame> readPicture(const std::string& path, const std::vector<char>& bytes) {
+Result<LeptonFrame> readPicture(const std::string& path, const std::string& bytes) {
+  const auto size = pictureSize(bytes);  // before memory is taken for it
+  if (!size)
+    return makeError(ErrorCode::InvalidInput, "{}: is not a readable picture (cut off?)", path);
+  if (size->width > kLongestSide_px || size->height > kLongestSide_px)
+    return makeError(ErrorCode::InvalidInput, "{}: says {} x {} pixels; no thermal camera has them",
+                     path, size->width, size->height);
   cv::Mat picture;
   try {
-    if (!bytes.empty()) {
-      picture = cv::imdecode(
-          cv::Mat(1, static_cast<int>(bytes.size()), CV_8U, const_cast<char*>(bytes.data())),
-          cv::IMREAD_UNCHANGED);
-    }
+    picture = cv::imdecode(
+        cv::Mat(1, static_cast<int>(bytes.size()), CV_8U, const_cast<char*>(bytes.data())),
+        cv::IMREAD_UNCHANGED);
   } catch (const cv::Exception& e) {
     return makeError(ErrorCode::InvalidInput, "{}: cannot be decoded ({})", path, e.err);
   }
@@ -64,10 +57,10 @@ Result<LeptonFrame> readPicture(const std::string& path, const std::vector<char>
 }  // namespace
 
 Result<LeptonFrame> readStill(const std::string& path) {
-  const auto bytes = readAll(path);
+  const auto bytes = readRegularFile(path, kLargestFile);
   if (!bytes) return tl::make_unexpected(bytes.error());
   if (isPicture(path)) return readPicture(path, *bytes);
-  auto frame = parseTjsn({bytes->data(), bytes->size()});
+  auto frame = parseTjsn(*bytes);
   if (!frame) {
     return tl::make_unexpected(
         Error{frame.error().code,

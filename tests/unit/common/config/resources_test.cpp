@@ -24,18 +24,19 @@ TEST(ResourcePath, NamesEveryPlaceItLookedAt) {
   EXPECT_THAT(path.error().message, ::testing::HasSubstr("KILN_RESOURCES"));
 }
 
-TEST(ResourcePath, LooksIntoKilnResourcesFirst) {
+TEST(ResourcePath, KilnResourcesStandsAloneWhereItIsSet) {
   const auto folder = std::filesystem::path(::testing::TempDir()) / "kiln_resources_test";
   std::filesystem::create_directories(folder / "robot_model");
   std::ofstream(folder / "robot_model/bob.yaml") << "length_m: 1\n";
   ::setenv("KILN_RESOURCES", folder.c_str(), 1);
   const auto mine = resourcePath("robot_model/bob.yaml");
-  const auto shipped = resourcePath("config/arena_kitchen.yaml");
+  const auto missing = resourcePath("macros");
   ::unsetenv("KILN_RESOURCES");
   std::filesystem::remove_all(folder);
   ASSERT_TRUE(mine.has_value());
   EXPECT_EQ(*mine, (folder / "robot_model/bob.yaml").string());
-  EXPECT_TRUE(shipped.has_value()) << "what is not there is still found in the tree";
+  ASSERT_FALSE(missing.has_value()) << "another tree's: " << *missing;
+  EXPECT_THAT(missing.error().message, ::testing::HasSubstr((folder / "macros").string()));
 }
 
 }  // namespace

@@ -125,7 +125,7 @@ TEST(YamlLoader, NamesAFileThatIsNotThere) {
   EXPECT_EQ(missing.error().code, ErrorCode::NotFound);
   EXPECT_THAT(missing.error().message, ::testing::HasSubstr("no/such/file.yaml"));
   EXPECT_EQ(loadConfig(std::filesystem::temp_directory_path().string(), config).error().code,
-            ErrorCode::NotFound)
+            ErrorCode::InvalidInput)
       << "a folder is no file";
 }
 

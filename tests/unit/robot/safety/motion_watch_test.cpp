@@ -77,6 +77,34 @@ TEST(MotionWatch, StopsTheRunawayOfThePaper) {
   EXPECT_NE(turning.run(5.0, [](double) { return Twist2{}; }).find("turns"), std::string::npos);
 }
 
+/// The default jog is 0.21 m/s and 0.21 rad/s (35 %).
+TEST(MotionWatch, ASlowJogThatRunsAtTwiceItsSpeedIsStopped) {
+  for (const double v : {0.1, 0.21, 0.5, 1.0}) {
+    Drive straight;
+    straight.push = {1.2 * v, 0, 0};
+    EXPECT_NE(straight.run(3.0, [&](double) { return Twist2{v, 0, 0}; }), "") << v;
+    Drive honest;
+    EXPECT_EQ(honest.run(3.0, [&](double) { return Twist2{v, 0, 0}; }), "") << v;
+  }
+  for (const double w : {0.21, 0.5}) {
+    Drive turning;
+    turning.push = {0, 0, 1.2 * w};
+    EXPECT_NE(turning.run(3.0, [&](double) { return Twist2{0, 0, w}; }), "") << w;
+  }
+}
+
+/// A drive that is stuck ends by itself within 2 s and the mission tries again; who goes on longer
+/// is stopped.
+TEST(MotionWatch, WheelsThatSlipForAMomentAreTheMissionsBusiness) {
+  const auto slipping_for = [](double seconds) {
+    Drive drive;
+    drive.slip = 1.0;
+    return drive.run(6.0, [=](double t) { return Twist2{t < seconds ? 0.4 : 0.0, 0, 0}; });
+  };
+  EXPECT_EQ(slipping_for(2.2), "");
+  EXPECT_NE(slipping_for(4.0).find("slip"), std::string::npos);
+}
+
 TEST(MotionWatch, SeesWheelsThatTurnInVainAndALocalisationThatJumps) {
   Drive slipping;
   slipping.slip = 0.7;

@@ -27,6 +27,22 @@ TEST(StuckWatch, WheelsThatDoNotTurnAndWheelsThatSpinOnTheSpotAreStuck) {
   EXPECT_FALSE(everStuck(watch, 1.5, 0.5, 0.0, 0.0)) << "the window is not over";
 }
 
+TEST(StuckWatch, SeesItWithinOneWindowWheneverItBegins) {
+  for (const double begin : {0.5, 1.0, 1.5}) {
+    StuckWatch watch({2.0, 0.3, 1.0});
+    watch.restart(Stamp{}, {});
+    double seen_s = 0.0, moved_m = 0.0;
+    for (int i = 1; seen_s == 0.0 && i < 500; ++i) {
+      moved_m += i * kTick_s < begin ? 0.5 * kTick_s : 0.0;
+      if (watch.update(Stamp{fromSeconds(i * kTick_s)}, kTick_s, {moved_m, 0, 0}, {0.5, 0, 0},
+                       {0.5, 0, 0}))
+        seen_s = i * kTick_s;
+    }
+    // 0.3 x 1 m is still covered when the window begins 0.6 s before the standstill.
+    EXPECT_NEAR(seen_s, std::max(2.0, begin + 1.4), 0.05) << begin;
+  }
+}
+
 TEST(StuckWatch, LittleCommandedWayProvesNothing) {
   StuckWatch watch({2.0, 0.3, 1.0});
   EXPECT_FALSE(everStuck(watch, 10.0, 0.1, 0.0, 0.0));  // 0.2 m a window

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "robot/world_model/read_file.h"
+#include "common/core/regular_file.h"
 
 namespace kiln {
 namespace {
@@ -29,14 +29,14 @@ TEST_F(CheckpointWriterTest, KeepsTheNewestText) {
   CheckpointWriter writer(path_);
   for (int i = 0; i < 100; ++i) writer.write(std::to_string(i), i % 10 == 0);
   writer.flush();
-  EXPECT_EQ(readWholeFile(path_).value(), "99");
+  EXPECT_EQ(readRegularFile(path_, 1000).value(), "99");
   EXPECT_FALSE(writer.problem().has_value());
   EXPECT_FALSE(std::filesystem::exists(path_ + ".tmp"));
 }
 
 TEST_F(CheckpointWriterTest, WritesTheLastTextBeforeItEnds) {
   { CheckpointWriter(path_).write("last words", false); }
-  EXPECT_EQ(readWholeFile(path_).value(), "last words");
+  EXPECT_EQ(readRegularFile(path_, 1000).value(), "last words");
 }
 
 TEST_F(CheckpointWriterTest, AFullDiskIsAStorageErrorAndLeavesTheOldFile) {
@@ -50,18 +50,16 @@ TEST_F(CheckpointWriterTest, AFullDiskIsAStorageErrorAndLeavesTheOldFile) {
   EXPECT_EQ(writer.problem()->code, ErrorCode::Storage);
   EXPECT_NE(writer.problem()->message.find("No space left"), std::string::npos)
       << writer.problem()->message;
-  EXPECT_EQ(readWholeFile(path_).value(), "old");
+  EXPECT_EQ(readRegularFile(path_, 1000).value(), "old");
   std::filesystem::remove(path_ + ".tmp");
   writer.write("newer", true);
   writer.flush();
   EXPECT_FALSE(writer.problem().has_value());
-  EXPECT_EQ(readWholeFile(path_).value(), "newer");
+  EXPECT_EQ(readRegularFile(path_, 1000).value(), "newer");
 }
 
 TEST_F(CheckpointWriterTest, AMissingFileIsNotFound) {
-  EXPECT_EQ(readWholeFile(path_).error().code, ErrorCode::NotFound);
-  EXPECT_EQ(readWholeFile(folder_.string()).error().code, ErrorCode::Storage)
-      << "a folder is no file";
+  EXPECT_EQ(readRegularFile(path_, 1000).error().code, ErrorCode::NotFound);
 }
 
 }  // namespace

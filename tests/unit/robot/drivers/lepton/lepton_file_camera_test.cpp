@@ -7,6 +7,8 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "common/core/manual_executor.h"
+#include "robot/drivers/lepton/codec/picture_size.h"
+#include "robot/drivers/lepton/link/still_file.h"
 
 namespace kiln {
 namespace {
@@ -58,6 +60,32 @@ TEST_F(LeptonFileCameraTest, RefusesAFolderWithoutStillsOrWithABrokenOne) {
   std::ofstream(folder_ / "b.tjsn") << "{\"radiometric\":";
   EXPECT_THAT(LeptonFileCamera::open(folder_.string(), executor_).error().message,
               ::testing::AllOf(HasSubstr("b.tjsn"), HasSubstr("not valid JSON")));
+}
+
+TEST_F(LeptonFileCameraTest, APictureThatClaimsToBeHugeIsRefusedByItsHeader) {
+  for (const char* name : {"huge.png", "huge.tiff"}) {
+    const std::string path = (folder_ / name).string();
+    cv::imwrite(path, cv::Mat(120, 160, CV_16UC1, cv::Scalar(30000)));
+    std::ifstream in(path, std::ios::binary);
+    std::string bytes((std::istreambuf_iterator<char>(in)), {});
+    const auto size = lepton::pictureSize(bytes);
+    ASSERT_TRUE(size.has_value()) << name;
+    EXPECT_EQ(size->width, 160u);
+    EXPECT_EQ(size->height, 120u);
+    // 30,000 lines instead of 120, where the format keeps them.
+    const bool png = std::string_view(name).ends_with("png");
+    const std::string lines = png ? std::string("\0\0\0\x78", 4) : std::string("\x78\0", 2);
+    const std::string entry = std::string("\x01\x01\x03\0\x01\0\0\0", 8) + lines;
+    const std::size_t at = png ? 20 : bytes.find(entry) + 8;
+    ASSERT_LT(at, bytes.size()) << name;
+    bytes.replace(at, lines.size(), png ? std::string("\0\0\x75\x30", 4) : "\x30\x75");
+    std::ofstream(path, std::ios::binary) << bytes;
+    const auto still = lepton::readStill(path);
+    ASSERT_FALSE(still.has_value()) << name;
+    EXPECT_NE(still.error().message.find("160 x 30000"), std::string::npos) << still.error();
+    for (std::size_t cut = 0; cut < std::min<std::size_t>(bytes.size(), 300); ++cut)
+      (void)lepton::pictureSize(std::string_view(bytes).substr(0, cut));
+  }
 }
 
 TEST_F(LeptonFileCameraTest, RefusesEightBitPictures) {

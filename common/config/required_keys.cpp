@@ -1,0 +1,28 @@
+#include "common/config/required_keys.h"
+
+#include <yaml-cpp/yaml.h>
+
+#include "common/core/regular_file.h"
+
+namespace kiln {
+
+Result<void> requireKeys(const std::string& path, const std::vector<std::string>& keys) {
+  constexpr std::uint64_t kMostBytes = 1U << 20;
+  const auto text = readRegularFile(path, kMostBytes);
+  if (!text) return tl::make_unexpected(text.error());
+  try {
+    const YAML::Node document = YAML::Load(*text);
+    for (const std::string& key : keys) {
+      const bool stands = document.IsMap() && document[key].IsDefined() && !document[key].IsNull();
+      if (stands && !(document[key].IsSequence() && document[key].size() == 0)) continue;
+      return makeError(ErrorCode::InvalidInput,
+                       "{}: '{}' is missing; safety depends on it, so it has no default", path,
+                       key);
+    }
+    return {};
+  } catch (const YAML::Exception& e) {
+    return makeError(ErrorCode::InvalidInput, "{}:{}: {}", path, e.mark.line + 1, e.msg);
+  }
+}
+
+}  // namespace kiln
