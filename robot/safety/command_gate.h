@@ -18,6 +18,7 @@ struct GateSituation {
   bool protective_stop = false;
   MissionPhase phase = MissionPhase::Idle;
   std::string position_lost;     ///< why nobody knows where the robot is; empty: it is known
+  bool has_pumps = true;
   bool ready = true;             ///< preflight holds
   std::string not_ready_reason;  ///< the first failing check, in words
   bool base_moving = false;      ///< measured

@@ -91,7 +91,10 @@ struct SituationRule {
     if (decision.accepted && now.protective_stop) return refuseProtective();
     return decision;
   }
-  GateDecision operator()(const HoldPump&) const { return byHand("pumps by hand"); }
+  GateDecision operator()(const HoldPump&) const {
+    if (!now.has_pumps) return refuse("no_device", "this robot has no pumps");
+    return byHand("pumps by hand");
+  }
   GateDecision operator()(const HoldMacro&) const {
     if (now.stop_latched) return refuseStopped();
     if (now.mode != Mode::Teleop) return wrongMode("macros", "Teleop");

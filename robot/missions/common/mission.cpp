@@ -8,6 +8,8 @@ Result<void> Mission::command(const CommandBody& body, const std::string&, Stamp
   return makeError(ErrorCode::Refused, "this mission does not know {}", commandName(body));
 }
 
+MacroStepKinds Mission::macroSteps(const MacroConfig&) const { return {}; }
+std::optional<Pose2> Mission::workPose(const std::string&) const { return std::nullopt; }
 std::vector<MissionAlarm> Mission::alarms(Stamp) const { return {}; }
 std::vector<Check> Mission::checks(Stamp) const { return {}; }
 void Mission::describe(RobotStatus&, Stamp) const {}

@@ -9,7 +9,8 @@
 #include "common/core/log.h"
 #include "robot/missions/fire/fire_machine.h"
 #include "robot/missions/fire/fire_report.h"
-#include "robot/skills/aim/jet.h"
+#include "robot/missions/fire/macro_steps.h"
+#include "robot/missions/fire/skills/jet.h"
 
 namespace kiln {
 namespace {
@@ -194,6 +195,16 @@ std::vector<FirePlaceInfo> FireMission::places() const {
   for (const FirePlace& place : impl_->context.belief.places)
     out.push_back({place.name, place.p_plate_map, place.facing_rad, place.visited, place.nudge});
   return out;
+}
+
+MacroStepKinds FireMission::macroSteps(const MacroConfig& config) const {
+  return fireMacroSteps(impl_->context, config);
+}
+
+std::optional<Pose2> FireMission::workPose(const std::string& place) const {
+  for (const FirePlaceConfig& known : impl_->context.devices.arena.fire_places)
+    if (known.name == place) return known.work_pose.pose();
+  return std::nullopt;
 }
 
 std::vector<MissionAlarm> FireMission::alarms(Stamp now) const {

@@ -30,6 +30,8 @@ class FireMission final : public Mission {
   /// NudgePlace and ContinueDespite.
   [[nodiscard]] Result<void> command(const CommandBody& body, const std::string& operator_name,
                                      Stamp now) override;
+  [[nodiscard]] MacroStepKinds macroSteps(const MacroConfig& config) const override;
+  [[nodiscard]] std::optional<Pose2> workPose(const std::string& place) const override;
   [[nodiscard]] std::vector<MissionAlarm> alarms(Stamp now) const override;
   [[nodiscard]] std::vector<Check> checks(Stamp now) const override;
   void describe(RobotStatus& status, Stamp now) const override;
