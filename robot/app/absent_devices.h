@@ -1,14 +1,13 @@
 #pragma once
 
-#include "robot/hal/arena.h"
 #include "robot/hal/arm.h"
 #include "robot/hal/drive_base.h"
 #include "robot/hal/pumps.h"
 
 namespace kiln {
 
-/// A robot that is not attached, e.g. while recorded sensor data is shown without one: no state,
-/// and every command is refused with what to do about it.
+/// In place of what is not attached, e.g. while recorded sensor data is shown without a robot: no
+/// state, and every command is refused with what to do about it.
 struct AbsentDevices {
   static tl::unexpected<Error> refuse() {
     return makeError(ErrorCode::Unavailable,
@@ -27,9 +26,6 @@ struct AbsentDevices {
     [[nodiscard]] std::optional<PumpsState> state() const override { return std::nullopt; }
     Result<void> write(const std::array<double, 2>&) override { return refuse(); }
   } pumps;
-  struct AbsentArena final : Arena {
-    Result<void> requestReset() override { return refuse(); }
-  } arena;
 };
 
 }  // namespace kiln

@@ -92,8 +92,11 @@ CommandAck MissionControl::executeDiscrete(const Command& command, Stamp now) {
     return fromResult(command, parts_.arm_controller.releaseProtectiveStop());
   }
   if (std::holds_alternative<ResetRobot>(body)) {
+    if (parts_.arena == nullptr)
+      return answer(command, AckOutcome::Refused, "no_device",
+                    "nobody here can carry the robot to its start");
     endHandWork(now);
-    return fromResult(command, parts_.arena.requestReset());
+    return fromResult(command, parts_.arena->requestReset());
   }
   if (const auto* scale = std::get_if<SetSpeedScale>(&body)) {
     parts_.teleop.setSpeedScale(scale->scale);

@@ -29,7 +29,7 @@ class MissionControl final : public Authority::Handler {
     StopLatch& stop;
     Arm& arm;
     ArmController& arm_controller;
-    Arena& arena;
+    Arena* arena;                 ///< nullptr: nobody can carry the robot to its start
     std::function<Pose2()> pose;  ///< newest X_map_base
     /// What the devices, checks and pictures say; the rest of the situation is added here.
     std::function<GateSituation(Stamp)> situation;

@@ -27,6 +27,14 @@ Check ageCheck(const std::string& name, std::optional<double> age_s, double limi
 }
 
 Check devicesCheck(const PreflightInputs& in) {
+  if (in.devices_connected && !in.lacking.empty()) {
+    std::vector<std::string_view> names;
+    for (const DeviceKind device : in.lacking) names.push_back(toString(device));
+    return fail("Devices",
+                fmt::format("this mission needs {}, which this robot does not have",
+                            fmt::join(names, " and ")),
+                "start another mission");
+  }
   if (in.devices_connected) return ok("Devices", "connected");
   return fail("Devices", "no connection", "is kiln-sim running, or the robot's power on?");
 }
@@ -112,7 +120,7 @@ Check pumpCurrentCheck(const PreflightInputs& in, const PreflightLimits& limits)
   if (in.pumps->heartbeat_lost)
     return fail(name, "the board has cut the pumps", "restart the pump controller");
   const bool resting = in.pumps->duty[0] <= 0.0 && in.pumps->duty[1] <= 0.0;
-  return ok(name, found + (resting ? " at rest" : ", spraying"));
+  return ok(name, found + (resting ? " at rest" : ", running"));
 }
 
 Check limitsCheck(const PreflightInputs& in) {
@@ -198,22 +206,22 @@ void PreflightLimits::visit(ConfigArchive& a) {
 }
 
 std::vector<Check> preflight(const PreflightInputs& in, const PreflightLimits& limits) {
-  return {devicesCheck(in),
-          ageCheck("Arm", in.arm_age_s, limits.device_age_s, "check the arm controller"),
-          armSafetyCheck(in),
-          ageCheck("Base", in.base_age_s, limits.device_age_s, "check the wheel controllers"),
-          ageCheck("Pumps", in.pumps_age_s, limits.device_age_s, "check the pump controller"),
-          pumpCurrentCheck(in, limits),
-          lidarCheck(in, limits),
-          perceptionCheck(in, limits),
-          transformsCheck(in),
-          clocksCheck(in, limits),
-          limitsCheck(in),
-          positionCheck(in),
-          mapCheck(in, limits),
-          batteryCheck(in, limits),
-          diskCheck(in, limits),
-          storageCheck(in)};
+  std::vector<Check> rows{
+      devicesCheck(in),
+      ageCheck("Arm", in.arm_age_s, limits.device_age_s, "check the arm controller"),
+      armSafetyCheck(in),
+      ageCheck("Base", in.base_age_s, limits.device_age_s, "check the wheel controllers")};
+  if (in.has_pumps) {
+    rows.push_back(
+        ageCheck("Pumps", in.pumps_age_s, limits.device_age_s, "check the pump controller"));
+    rows.push_back(pumpCurrentCheck(in, limits));
+  }
+  for (Check& row : std::vector<Check>{
+           lidarCheck(in, limits), perceptionCheck(in, limits), transformsCheck(in),
+           clocksCheck(in, limits), limitsCheck(in), positionCheck(in), mapCheck(in, limits),
+           batteryCheck(in, limits), diskCheck(in, limits), storageCheck(in)})
+    rows.push_back(std::move(row));
+  return rows;
 }
 
 std::string lateProduct(const PreflightInputs& in, const PreflightLimits& limits) {

@@ -6,6 +6,7 @@
 
 #include "common/model/status.h"
 #include "robot/app/controller_limits.h"
+#include "robot/hal/device_set.h"
 #include "robot/hal/lidar.h"
 #include "robot/localization/pose_tracker.h"
 
@@ -39,7 +40,9 @@ struct PreflightInputs {
   std::vector<std::string> missing_edges;  ///< of the transform tree, "flange -> lidar"
   int tree_edges = 0;                      ///< of the full tree
   std::vector<ClockReading> clocks;
+  bool has_pumps = true;
   std::optional<PumpsState> pumps;
+  DeviceSet lacking;                   ///< of what the mission needs
   std::vector<LimitRow> limits;        ///< configured against possible
   std::string reported_beyond_limit;   ///< by a device; empty: nothing
   bool map_in_use = true;              ///< false: odometry alone, by configuration

@@ -28,11 +28,6 @@ struct RecordedPumps final : Pumps {
   Result<void> write(const std::array<double, 2>&) override { return {}; }
   std::optional<PumpsState> latest;
 };
-struct RecordedArena final : Arena {
-  Result<void> requestReset() override {
-    return makeError(ErrorCode::Refused, "this is a recording; nobody can carry the robot back");
-  }
-};
 
 /// Lidar, ThermalCamera or RgbCamera.
 template <class Interface, class Frame>
@@ -87,7 +82,6 @@ struct RecordedRun::Impl {
   RecordedArm arm;
   RecordedBase base;
   RecordedPumps pumps;
-  RecordedArena arena;
   RecordedSensor<Lidar, PointCloud> lidar;
   RecordedSensor<ThermalCamera, ThermalImage> thermal;
   RecordedSensor<RgbCamera, RgbImage> camera;
@@ -115,7 +109,7 @@ RecordedRun::~RecordedRun() = default;
 
 Devices RecordedRun::devices() {
   Impl& m = *impl_;
-  Devices all{m.arm, m.base, m.pumps, m.arena};
+  Devices all{m.arm, m.base, &m.pumps};
   all.lidar = &m.lidar;
   all.thermal = &m.thermal;
   all.operator_camera = &m.camera;

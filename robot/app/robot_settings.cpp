@@ -10,8 +10,6 @@ void RobotSettings::visit(ConfigArchive& a) {
       "flat_ground", flat_ground,
       "the arena without its ramp and edge, as in worlds/fire_flat.yaml; the shipped map has both: "
       "locate against the walls there");
-  a.field("spray_calibration", spray_calibration,
-          "resource file written by kiln-eval spray-calibration");
   a.field("checkpoint_period_s", checkpoint_period_s, "s", 0.02, 60,
           "how old a checkpoint may be between actions");
   a.field("camera_rate_hz", camera_rate_hz, "Hz", 0.1, 60, "pictures sent to the stations");

@@ -12,7 +12,7 @@
 #include "robot/safety/authority.h"
 #include "robot/safety/motion_watch.h"
 #include "robot/skills/drive_to.h"
-#include "robot/skills/macro_runner.h"
+#include "robot/skills/macro_steps.h"
 #include "robot/skills/move_arm.h"
 
 namespace kiln {
@@ -24,8 +24,7 @@ struct RobotSettings {
   std::string geometry = "robot_model/bob.yaml";    ///< resource
   std::string arena = "config/arena_kitchen.yaml";  ///< resource
   bool flat_ground = false;                         ///< the arena without its ramp and edge
-  std::string spray_calibration = "config/spray_calibration.yaml";
-  double checkpoint_period_s = 0.2;  ///< between actions
+  double checkpoint_period_s = 0.2;                 ///< between actions
   double camera_rate_hz = 10.0;
   int jpeg_quality = 75;
   ArmController::Config arm;
@@ -40,7 +39,7 @@ struct RobotSettings {
   LocalizationSettings localization;
   MissionConfigs missions = missionConfigs();
   Authority::Config authority;
-  MacroRunnerConfig macros;
+  MacroConfig macros;
   Teleop::Config teleop;
   PreflightLimits preflight;
   RunRecorder::Config recording;

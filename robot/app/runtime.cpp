@@ -34,15 +34,20 @@ Result<void> Runtime::open(const DeviceSources& sources, const std::string& vers
 Devices Runtime::devices() {
   if (run) return run->devices();
   if (!sim) {
-    Devices none{absent_.arm, absent_.base, absent_.pumps, absent_.arena};
+    Devices none{absent_.arm, absent_.base};
     none.lidar = recorded_.lidar();
     none.thermal = recorded_.thermal();
     return none;
   }
-  Devices all{sim->arm(), sim->base(), sim->pumps(), sim->arena()};
-  all.lidar = recorded_.lidar() != nullptr ? recorded_.lidar() : &sim->lidar();
-  all.thermal = recorded_.thermal() != nullptr ? recorded_.thermal() : &sim->thermalCamera();
-  all.operator_camera = &sim->operatorCamera();
+  const DeviceSet& has = sim->world().devices;
+  Devices all{sim->arm(), sim->base()};
+  all.arena = &sim->arena();
+  if (has.contains(DeviceKind::Pumps)) all.pumps = &sim->pumps();
+  if (has.contains(DeviceKind::Lidar)) all.lidar = &sim->lidar();
+  if (has.contains(DeviceKind::ThermalCamera)) all.thermal = &sim->thermalCamera();
+  if (has.contains(DeviceKind::OperatorCamera)) all.operator_camera = &sim->operatorCamera();
+  if (recorded_.lidar() != nullptr) all.lidar = recorded_.lidar();
+  if (recorded_.thermal() != nullptr) all.thermal = recorded_.thermal();
   all.connected = [link = sim.get()] { return link->connected(); };
   all.resets = [link = sim.get()] { return link->resets(); };
   return all;

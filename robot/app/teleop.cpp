@@ -5,6 +5,8 @@
 
 #include <Eigen/Dense>
 
+#include "robot/scene/obstacles.h"
+
 namespace kiln {
 namespace {
 
@@ -87,10 +89,7 @@ Vector6d Teleop::jointRates(const JogArm& jog, const Vector6d& q, double scale) 
 }
 
 std::string Teleop::objection(const Vector6d& q, const Vector6d& qd, const Pose2& X_map_base) {
-  std::vector<BoxConfig> boxes = arena_.walls;
-  boxes.insert(boxes.end(), arena_.furniture.begin(), arena_.furniture.end());
-  for (const BoxConfig& box : arena_.fireFurniture()) boxes.push_back(box);
-  collision_.setScene(boxes, X_map_base);
+  collision_.setScene(obstacles(arena_), X_map_base);
   const Clearance ahead = collision_.clearance(q + qd * config_.look_ahead_s);
   if (ahead.distance_m >= config_.clearance_m || ahead.distance_m > collision_.distance(q))
     return {};

@@ -1,55 +1,76 @@
+// Alone in this file, so that a program that brings a table of its own (tests/system/toy) links the
+// rest.
 #include "robot/evaluation/evaluation.h"
 
 namespace kiln {
+namespace {
+
+const EvaluationOption kWorld{"--world", "world file (default: the evaluation's own)",
+                              &SweepOptions::world};
+const EvaluationOption kLocalization{"--localization", "surfel_map, walls or odometry",
+                                     &SweepOptions::localization};
+const EvaluationOption kCalibrate{
+    "--calibrate,!--no-calibrate",
+    "calibrate the sensors of each seed's robot first (default; kept in "
+    "~/.cache/kiln/calibration), or drive with nominal mountings",
+    &SweepOptions::calibrate};
+const EvaluationOption kOut{"--out", "where the result is written", &SweepOptions::out};
+
+}  // namespace
 
 const std::vector<Evaluation>& evaluations() {
   static const std::vector<Evaluation> all = {
       {"fire",
        "fire mission, one process each for world and robot, lockstep; full world, or --world of "
-       "the "
-       "flat one",
+       "the flat one",
        evaluateFire,
-       {1, 20, 1, ""}},
+       {1, 20},
+       {kWorld, kLocalization, kCalibrate},
+       {"fire", judgeFire}},
       {"localization",
        "believed against true pose over fire missions, and odometry alone on the same way",
        evaluateLocalization,
-       {1, 5, 1, ""}},
+       {1, 5},
+       {kWorld, kLocalization, kCalibrate}},
       {"relocalization",
        "50 wrong start poses a seed, up to 1 m and 20 deg off, all along a recorded mission: found "
        "again, or said to be lost?",
        evaluateRelocalization,
-       {2, 5, 1, ""}},
+       {2, 5},
+       {kCalibrate}},
       {"mapping",
        "the mapping drive, recorded, and the map made of it: loops, and keyframes against the "
        "truth",
        evaluateMapping,
-       {1, 3, 1, ""}},
+       {1, 3}},
       {"fallback",
        "litres delivered by hand commands alone over the operator link, real time",
        evaluateFallback,
-       {1, 1, 1, ""}},
+       {1, 1}},
       {"stop",
        "time from STOP to latched, and from lost setpoints to ramp and pumps off, real time",
        evaluateStop,
-       {1, 1, 1, ""}},
+       {1, 1}},
       {"place-check",
        "is a misplaced fire box refused before the arm unfolds, and a normal one never",
        evaluatePlaceCheck,
-       {1, 50, 1, ""}},
+       {1, 50}},
       {"resume",
        "fire missions whose daemon is killed (SIGKILL) and goes on with --resume: a seed's five at "
        "random moments and three on the approach to the building",
        evaluateResume,
-       {1, 10, 1, ""}},
+       {1, 10}},
       {"calibrate",
        "finds the mounting of LiDAR and thermal camera by moving the arm; --out FILE is for "
        "kiln-robotd --calibration",
        calibrateSensors,
-       {1, 1, 1, ""}},
+       {1, 1},
+       {kOut}},
       {"spray-calibration",
        "measures the jet in the world and writes resources/config/spray_calibration.yaml",
        calibrateSpray,
-       {1, 1, 1, ""}},
+       {1, 1},
+       {kOut}},
   };
   return all;
 }

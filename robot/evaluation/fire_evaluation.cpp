@@ -5,6 +5,7 @@
 #include "robot/evaluation/evaluation.h"
 #include "robot/evaluation/heat_accuracy.h"
 #include "robot/evaluation/mission_sweep.h"
+#include "robot/evaluation/truth.h"
 
 namespace kiln {
 namespace {
@@ -21,6 +22,13 @@ json describeRun(const SeedResult& result) {
 }
 
 }  // namespace
+
+std::string judgeFire(const json& robot, const json& truth, json& report) {
+  report["litres_delivered"] = truth.at("litres_delivered");
+  report["burning_place"] = truth.value("burning_name", "");
+  report["litres_est"] = robot.value("litres_est", 0.0);
+  return burningLitres(truth) >= 1.0 ? "" : "not extinguished";
+}
 
 Result<EvaluationResult> evaluateFire(const SweepOptions& options) {
   const std::vector<SeedResult> results = runSeeds(options);

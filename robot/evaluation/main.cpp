@@ -64,16 +64,29 @@ bool parseSeeds(const std::string& text, SweepOptions& options) {
   return true;
 }
 
-/// tests/bench/goals.yaml lives beside resources/ in the source tree.
-Result<std::vector<Goal>> goals() {
+/// tests/ lies beside resources/ in the source tree.
+Result<std::vector<Goal>> goalsOf(const Evaluation& evaluation) {
   auto config = resourcePath("config");
   if (!config) return tl::make_unexpected(config.error());
-  return loadGoals(*config + "/../../tests/bench/goals.yaml");
+  return loadGoals(*config + "/../../" + evaluation.goals);
+}
+
+void addOption(CLI::App& sub, const EvaluationOption& option, SweepOptions& sweep) {
+  if (const auto* text = std::get_if<std::string SweepOptions::*>(&option.field)) {
+    sub.add_option(option.flags, sweep.**text, option.doc);
+  } else if (const auto* flag = std::get_if<bool SweepOptions::*>(&option.field)) {
+    sub.add_flag(option.flags, sweep.**flag, option.doc);
+  } else {
+    const std::string name = option.flags.substr(option.flags.find_first_not_of('-'));
+    sub.add_option_function<std::string>(
+        option.flags, [&sweep, name](const std::string& value) { sweep.own[name] = value; },
+        option.doc);
+  }
 }
 
 int runEvaluation(const Evaluation& evaluation, const SweepOptions& options,
                   const std::string& json_path) {
-  auto goal_list = goals();
+  auto goal_list = goalsOf(evaluation);
   if (!goal_list) return fail(goal_list.error());
   auto result = evaluation.run(options);
   if (!result) return fail(result.error());
@@ -148,15 +161,7 @@ int main(int argc, char** argv) {
     sub->add_option("--seeds", seeds, "A-B");
     sub->add_option("--json", json_path, "write figures and runs as JSON");
     sub->add_option("--jobs", jobs, "runs side by side")->check(CLI::Range(1, 64));
-    sub->add_option("--world", sweep.world, "world file (default: the evaluation's own)")
-        ->check(CLI::ExistingFile);
-    sub->add_option("--localization", sweep.localization, "surfel_map, walls or odometry");
-    if (evaluation.name == "fire" || evaluation.name == "localization" ||
-        evaluation.name == "relocalization")
-      sub->add_flag("--calibrate,!--no-calibrate", sweep.calibrate,
-                    "calibrate the sensors of each seed's robot first (default; kept in "
-                    "~/.cache/kiln/calibration), or drive with nominal mountings");
-    sub->add_option("--out", sweep.out, "where a calibration writes its result");
+    for (const EvaluationOption& option : evaluation.options) addOption(*sub, option, sweep);
     sweeps.emplace_back(sub, &evaluation);
   }
   CLI11_PARSE(app, argc, argv);
@@ -187,12 +192,10 @@ int main(int argc, char** argv) {
   }
   for (const auto& [sub, evaluation] : sweeps) {
     if (!*sub) continue;
-    SweepOptions options = evaluation->defaults;
-    options.out = sweep.out;
-    options.world = sweep.world;
-    options.localization = sweep.localization;
-    options.calibrate = sweep.calibrate;
-    if (jobs > 0) options.jobs = jobs;
+    SweepOptions options = sweep;
+    options.first_seed = evaluation->defaults.first_seed;
+    options.last_seed = evaluation->defaults.last_seed;
+    options.jobs = jobs > 0 ? jobs : evaluation->defaults.jobs;
     if (!parseSeeds(seeds, options))
       return fail({ErrorCode::InvalidInput, "--seeds must be A-B with A <= B, e.g. 1-20"});
     return runEvaluation(*evaluation, options, json_path);

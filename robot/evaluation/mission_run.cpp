@@ -9,7 +9,8 @@
 
 #include "common/core/clock.h"
 #include "robot/evaluation/child_process.h"
-#include "robot/evaluation/truth.h"
+#include "robot/evaluation/evaluation.h"
+#include "robot/missions/catalog.h"
 
 namespace kiln {
 namespace {
@@ -88,27 +89,24 @@ struct Folder {
 json mergeReports(const MissionRunOptions& options, const json& robot, const json& truth,
                   bool& success) {
   const auto& collisions = truth.at("collisions");
-  const double burning_l = burningLitres(truth);
   const std::string outcome = robot.value("outcome", "unknown");
-  const bool wet = options.mission != "fire" || burning_l >= 1.0;
-  success = outcome == "success" && collisions.empty() && wet;
-  return json{{"mission", options.mission},
+  json report{{"mission", options.mission},
               {"seed", options.seed},
               {"version", KILN_VERSION},
-              {"outcome", success                ? "success"
-                          : outcome == "success" ? "not extinguished"
-                                                 : outcome},
               {"mission_outcome", outcome},
               {"reason", robot.value("reason", "")},
               {"simulated_s", truth.at("simulated_s")},
               {"mission_s", robot.value("mission_s", 0.0)},
-              {"litres_delivered", truth.at("litres_delivered")},
-              {"burning_place", truth.value("burning_name", "")},
-              {"litres_est", robot.value("litres_est", 0.0)},
               {"collisions", collisions},
               {"states", robot.at("states")},
               {"resets", truth.at("resets")},
               {"score", truth.at("score")}};
+  const MissionRule* rule = missionRule(options.mission);
+  std::string missed = rule ? rule->judge(robot, truth, report) : std::string();
+  if (missed.empty() && !collisions.empty()) missed = "collision";
+  success = outcome == "success" && missed.empty();
+  report["outcome"] = outcome == "success" && !success ? missed : outcome;
+  return report;
 }
 
 /// Follows the world's trace while it grows.
@@ -152,7 +150,15 @@ Result<std::optional<Kill>> killAndResume(const Folder& folder, TraceTail& tail,
 
 }  // namespace
 
-Result<MissionRun> runMission(const MissionRunOptions& options) {
+const MissionRule* missionRule(const std::string& mission) {
+  for (const Evaluation& evaluation : evaluations())
+    if (evaluation.rule.judge && evaluation.rule.mission == mission) return &evaluation.rule;
+  return nullptr;
+}
+
+Result<MissionRun> runMission(const MissionRunOptions& asked) {
+  MissionRunOptions options = asked;
+  if (options.mission.empty()) options.mission = missionNames().front();
   const Folder folder(options);
   const SteadyClock clock;
   const Stamp begin = clock.now();

@@ -18,7 +18,7 @@ struct Kill {
 /// One mission in the simulator, each side in a process of its own.
 struct MissionRunOptions {
   std::string programs;  ///< folder of kiln-sim and kiln-robotd; empty = beside this program
-  std::string mission = "fire";
+  std::string mission;   ///< empty = the first of the catalogue
   int seed = 1;
   bool lockstep = true;
   std::string world;                    ///< world file; empty = the mission's default
@@ -50,8 +50,8 @@ struct MissionRun {
 }
 
 /// Starts kiln-sim and kiln-robotd on private sockets, waits for both, merges what the robot says
-/// of itself with what the world knows. Success = mission ended as finished, no collision, and
-/// after a fire mission at least 1 l through the burning place's opening.
+/// of itself with what the world knows. Success = mission ended as finished, no collision, and what
+/// the mission's rule asks for (evaluation.cpp).
 [[nodiscard]] Result<MissionRun> runMission(const MissionRunOptions& options);
 
 }  // namespace kiln

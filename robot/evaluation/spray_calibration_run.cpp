@@ -9,7 +9,7 @@
 #include "common/robot_model/robot_geometry.h"
 #include "robot/evaluation/evaluation.h"
 #include "robot/evaluation/lockstep_world.h"
-#include "robot/skills/aim/spray_calibration.h"
+#include "robot/missions/fire/skills/spray_calibration.h"
 
 namespace kiln {
 namespace {

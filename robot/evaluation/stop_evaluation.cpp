@@ -65,7 +65,7 @@ class WatchedRobot {
     if (!settings) return tl::make_unexpected(settings.error());
     RobotOptions options;
     options.version = KILN_VERSION;
-    Devices devices{sim_->arm(), sim_->base(), sim_->pumps(), sim_->arena()};
+    Devices devices{sim_->arm(), sim_->base(), &sim_->pumps(), &sim_->arena()};
     devices.lidar = &sim_->lidar();
     devices.thermal = &sim_->thermalCamera();
     devices.connected = [link = sim_.get()] { return link->connected(); };

@@ -107,4 +107,30 @@ void toProto(const WorldReport& report, v1::device::Report& m) {
   m.set_refused(report.refused);
 }
 
+v1::device::Device toProto(DeviceKind kind) {
+  switch (kind) {
+    case DeviceKind::Pumps:
+      return v1::device::DEVICE_PUMPS;
+    case DeviceKind::Lidar:
+      return v1::device::DEVICE_LIDAR;
+    case DeviceKind::ThermalCamera:
+      return v1::device::DEVICE_THERMAL_CAMERA;
+    case DeviceKind::OperatorCamera:
+      return v1::device::DEVICE_OPERATOR_CAMERA;
+  }
+  return v1::device::DEVICE_UNSPECIFIED;
+}
+
+void leaveOut(const DeviceSet& devices, v1::device::Report& report) {
+  if (!devices.contains(DeviceKind::Pumps)) report.clear_pumps();
+}
+
+void leaveOut(const DeviceSet& devices, WorldCommands& commands) {
+  if (!devices.contains(DeviceKind::Pumps)) commands.pumps.reset();
+  if (!commands.sensors) return;
+  commands.sensors->lidar &= devices.contains(DeviceKind::Lidar);
+  commands.sensors->thermal &= devices.contains(DeviceKind::ThermalCamera);
+  commands.sensors->operator_camera &= devices.contains(DeviceKind::OperatorCamera);
+}
+
 }  // namespace kiln::sim

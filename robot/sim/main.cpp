@@ -1,4 +1,5 @@
 #include <csignal>
+#include <map>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -21,8 +22,15 @@ struct Options {
   std::string world = "fire";
   std::uint64_t seed = 1;
   std::vector<std::string> faults;
+  std::vector<std::string> without;
   kiln::sim::WorldServer::Config server;
 };
+
+const std::map<std::string, kiln::DeviceKind> kDeviceNames{
+    {"pumps", kiln::DeviceKind::Pumps},
+    {"lidar", kiln::DeviceKind::Lidar},
+    {"thermal", kiln::DeviceKind::ThermalCamera},
+    {"camera", kiln::DeviceKind::OperatorCamera}};
 
 void addOptions(CLI::App& app, Options& o) {
   o.server.endpoint = "ipc:///tmp/kiln-sim";
@@ -40,6 +48,8 @@ void addOptions(CLI::App& app, Options& o) {
   app.add_option("--truth-trace", o.server.trace_path, "Write true poses here (JSON lines, 10 Hz)");
   app.add_option("--fault", o.faults,
                  "NAME[=NUMBER,...]@SECONDS[:SECONDS], begin and duration; may be repeated");
+  app.add_option("--without", o.without, "The robot lacks this device; may be repeated")
+      ->check(CLI::IsMember(kDeviceNames));
   app.footer(kiln::sim::faultHelp());
 }
 
@@ -80,6 +90,8 @@ int main(int argc, char** argv) {
 
   // Before the world starts its threads: the LiDAR's inherits this.
   if (!options.server.lockstep) kiln::runBeforeOthers();
+  for (const std::string& device : options.without)
+    options.server.devices.erase(kDeviceNames.at(device));
   const auto config = loadWorld(options);
   if (!config) return fail(config.error());
   auto world =

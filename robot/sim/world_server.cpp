@@ -139,6 +139,7 @@ void WorldServer::Impl::publish(const WorldReport& report) {
   if (holder == 0) return;
   v1::device::ToRobot message;
   toProto(report, *message.mutable_report());
+  leaveOut(config.devices, *message.mutable_report());
   send(holder, message);
 }
 
@@ -156,6 +157,7 @@ void WorldServer::Impl::hello(PeerId from, const v1::device::Hello& m) {
   reply.set_device_period_s(world.config().device_period_s);
   reply.set_world(world.config().name);
   reply.set_seed(world.seed());
+  for (const DeviceKind device : config.devices) reply.add_devices(toProto(device));
   if (m.protocol() != PROTOCOL_CURRENT || m.version() != config.version) {
     refuse(REFUSAL_VERSION, fmt::format("the world speaks device protocol {} of version {}, the "
                                         "robot {} of {}; build both from one tree",
@@ -196,7 +198,8 @@ void WorldServer::Impl::handle(PeerId from, const v1::device::ToWorld& m) {
     return release("it said bye");
   }
   if (!m.has_advance()) return;
-  const auto commands = fromProto(m.advance());
+  auto commands = fromProto(m.advance());
+  if (commands) leaveOut(config.devices, *commands);
   if (!commands) unreadable.warn("message ignored: {}", commands.error().message);
   if (config.lockstep) {
     runLockstep(m.advance(), commands.value_or(WorldCommands{}));

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "common/core/clock.h"
+#include "robot/hal/device_set.h"
 #include "robot/sim/world.h"
 
 namespace kiln::sim {
@@ -24,6 +25,8 @@ class WorldServer {
     std::string truth_path;  ///< empty: no truth report
     std::string trace_path;  ///< empty: no trace
     double trace_rate_hz = 10.0;
+    DeviceSet devices = {DeviceKind::Pumps, DeviceKind::Lidar, DeviceKind::ThermalCamera,
+                         DeviceKind::OperatorCamera};  ///< that the robot has
   };
   /// Binds. Errors: InvalidInput (endpoint), Unavailable (in use), Storage (trace cannot be
   /// written).

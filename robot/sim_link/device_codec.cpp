@@ -135,4 +135,15 @@ Result<RgbImagePtr> colourFromProto(const v1::device::ColourFrame& frame, Durati
   return image;
 }
 
+DeviceSet devicesFromProto(const v1::device::HelloReply& reply) {
+  DeviceSet out;
+  for (const int device : reply.devices()) {
+    if (device == v1::device::DEVICE_PUMPS) out.insert(DeviceKind::Pumps);
+    if (device == v1::device::DEVICE_LIDAR) out.insert(DeviceKind::Lidar);
+    if (device == v1::device::DEVICE_THERMAL_CAMERA) out.insert(DeviceKind::ThermalCamera);
+    if (device == v1::device::DEVICE_OPERATOR_CAMERA) out.insert(DeviceKind::OperatorCamera);
+  }
+  return out;
+}
+
 }  // namespace kiln

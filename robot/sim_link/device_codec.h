@@ -3,6 +3,7 @@
 #include "common/core/error.h"
 #include "common/model/sensor.h"
 #include "kiln/v1/device.pb.h"
+#include "robot/hal/device_set.h"
 
 namespace kiln {
 
@@ -17,5 +18,8 @@ namespace kiln {
                                                        Duration shift);
 [[nodiscard]] Result<RgbImagePtr> colourFromProto(const v1::device::ColourFrame& frame,
                                                   Duration shift);
+
+/// A device of a newer world that this robot does not know is left out.
+[[nodiscard]] DeviceSet devicesFromProto(const v1::device::HelloReply& reply);
 
 }  // namespace kiln

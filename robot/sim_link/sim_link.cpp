@@ -129,6 +129,7 @@ Result<void> SimLink::Impl::open() {
   world.seed = reply->seed();
   world.device_period = fromSeconds(reply->device_period_s());
   world.now = stampFromNanoseconds(reply->now_ns());
+  world.devices = devicesFromProto(*reply);
   welcome();
   if (!config.lockstep) {
     outbox.wake = [this] { wake.signal(); };
@@ -146,7 +147,8 @@ void SimLink::Impl::welcome() {
 void SimLink::Impl::takeReport(const v1::device::Report& report, Duration shift) {
   deliver(armFromProto(report, shift), [this](const ArmState& s) { arm.latest.put(s); });
   deliver(baseFromProto(report, shift), [this](const BaseState& s) { base.latest.put(s); });
-  deliver(pumpsFromProto(report, shift), [this](const PumpsState& s) { pumps.latest.put(s); });
+  if (report.has_pumps())
+    deliver(pumpsFromProto(report, shift), [this](const PumpsState& s) { pumps.latest.put(s); });
   resets.store(report.resets());
   refusal.put(report.refused());
   last_report.put(config.lockstep ? stampFromNanoseconds(report.now_ns()) : clock.now());

@@ -9,6 +9,7 @@
 #include "common/core/clock.h"
 #include "robot/hal/arena.h"
 #include "robot/hal/arm.h"
+#include "robot/hal/device_set.h"
 #include "robot/hal/drive_base.h"
 #include "robot/hal/lidar.h"
 #include "robot/hal/pumps.h"
@@ -51,6 +52,7 @@ class SimLink {
     std::uint64_t seed = 0;
     Stamp now;                 ///< world time at the hello (lockstep: start your clock here)
     Duration device_period{};  ///< a report each so often in real time
+    DeviceSet devices;         ///< that this robot has; the others' accessors give silent ones
   };
 
   /// Connects and says hello. Errors: InvalidInput (endpoint), Unavailable (nobody answers),

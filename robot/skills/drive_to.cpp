@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "robot/planning/base_path/base_path.h"
+#include "robot/scene/obstacles.h"
 #include "robot/skills/arena_fence.h"
 #include "robot/skills/stuck_watch.h"
 
@@ -137,11 +138,8 @@ struct DriveTo::Impl {
       fail("geofence", "the way between the way-points leaves the geofence", now);
       return;
     }
-    std::vector<BoxConfig> boxes = arena.walls;
-    boxes.insert(boxes.end(), arena.furniture.begin(), arena.furniture.end());
-    for (BoxConfig& box : arena.fireFurniture()) boxes.push_back(std::move(box));
     const auto hit =
-        firstObstacle(*path, config.footprint_length_m, config.footprint_width_m, boxes);
+        firstObstacle(*path, config.footprint_length_m, config.footprint_width_m, obstacles(arena));
     if (hit) fail("in_collision", "the way leads through: " + *hit, now);
     stuck.restart(now, here);
   }

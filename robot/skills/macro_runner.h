@@ -1,36 +1,19 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "common/geom/pose.h"
 #include "common/model/status.h"
-#include "common/robot_model/robot_geometry.h"
-#include "robot/control/pump_controller.h"
-#include "robot/scene/arena_map.h"
-#include "robot/skills/aim/aim_solver.h"
 #include "robot/skills/macro.h"
-#include "robot/skills/motion.h"
-#include "robot/skills/spray/spray_pattern.h"
 
 namespace kiln {
 
-class MacroStepRun;
-
-struct MacroRunnerConfig {
-  AimSolverConfig aim;
-  SprayPatternConfig pattern;       ///< its half_width_deg comes from the macro
-  double flow_lpm = 1.6;            ///< each pump, for the list's litres
-  double tank_l = 5.0;              ///< each tank when full
-  double arm_step_s = 6.0;          ///< what the list reckons for one arm motion
-  double pump_check_after_s = 1.0;  ///< a pump without current by then fails the step
-  void visit(ConfigArchive& a);
-};
-
-/// Runs macros while the operator holds them. Letting go is a stop: the arm decelerates and holds,
-/// the pumps are off; so is cancel(), a failed step and a change of the safety epoch between steps.
+/// Runs macros while the operator holds them. Letting go is a stop: the step that runs is aborted;
+/// so is cancel(), a failed step and a change of the safety epoch between steps.
 /// Holding the same macro again goes on with the step that was interrupted, unless a restart is
 /// asked for. A macro that has ended, or whose start was refused, is over for this press: its
 /// caller ends the hold when running() turns false (Authority::endHold). Confined to the mission
@@ -38,20 +21,15 @@ struct MacroRunnerConfig {
 class MacroRunner {
  public:
   struct Parts {
-    const RobotGeometry& robot;
-    const ArenaMap& arena;
-    ArmMotion& arm;
-    PumpController& pumps;
-    SprayCalibration calibration;
     std::function<Pose2()> pose;  ///< newest X_map_base
-    /// Newest measured X_base_flange; nullopt while the arm is silent.
-    std::function<std::optional<Eigen::Isometry3d>()> flange;
+    /// Where the base works on a place; nullopt: there is none of that name.
+    std::function<std::optional<Pose2>(const std::string& place)> work_pose;
     std::function<std::uint64_t()> safety_epoch;  ///< SafetyEpoch::value
   };
-  MacroRunner(MacroRunnerConfig config, Parts parts, std::vector<Macro> macros);
-  ~MacroRunner();
+  MacroRunner(Parts parts, std::vector<Macro> macros)
+      : parts_(std::move(parts)), macros_(std::move(macros)) {}
 
-  /// For the station: duration, water and start condition.
+  /// For the station: duration, start condition and what the steps add.
   [[nodiscard]] std::vector<MacroInfo> list() const;
   /// An accepted HoldMacro. Unknown names and start conditions that do not hold end up in
   /// status().last_result.
@@ -71,14 +49,14 @@ class MacroRunner {
     const Macro* macro;
     std::size_t step = 0;
     std::uint64_t epoch = 0;
-    std::unique_ptr<MacroStepRun> step_run;
+    bool resumes = false;    ///< the step was begun by an earlier press
+    bool under_way = false;  ///< the step has been started
   };
-  void start(const Macro& macro, std::size_t step);
+  void begin(const Macro& macro, bool restart);
   void finish(const std::string& result, bool keep_place);
   [[nodiscard]] std::string startObjection(const Macro& macro) const;
   [[nodiscard]] const Macro* find(const std::string& name) const;
 
-  MacroRunnerConfig config_;
   Parts parts_;
   std::vector<Macro> macros_;
   std::optional<Run> run_;

@@ -11,6 +11,7 @@
 #include "common/core/log.h"
 #include "robot/planning/arm_motion/joint_trajectory.h"
 #include "robot/planning/arm_motion/ur_inverse.h"
+#include "robot/scene/obstacles.h"
 #include "robot/skills/arm_postures.h"
 
 namespace kiln {
@@ -34,13 +35,6 @@ struct LineGoal {
   bool blend = false;
 };
 using Goal = std::variant<Vector6d, PoseGoal, LineGoal>;
-
-std::vector<BoxConfig> sceneBoxes(const ArenaMap& arena) {
-  std::vector<BoxConfig> boxes = arena.walls;
-  boxes.insert(boxes.end(), arena.furniture.begin(), arena.furniture.end());
-  for (BoxConfig& box : arena.fireFurniture()) boxes.push_back(std::move(box));
-  return boxes;
-}
 
 }  // namespace
 
@@ -181,7 +175,7 @@ struct MoveArm::Impl {
   }
 
   SkillStatus plan(Stamp now) {
-    collision.setScene(sceneBoxes(arena), pose());  // the operator may have moved a place
+    collision.setScene(obstacles(arena), pose());
     if (const auto* lines = std::get_if<LineGoal>(&goal)) return planLines(*lines, now);
     std::vector<Vector6d> goals;
     if (const auto* q = std::get_if<Vector6d>(&goal)) {
@@ -319,7 +313,7 @@ struct MoveArm::Impl {
     const auto goals = posturesFor(robot, X_base_flange, state ? state->q : Vector6d::Zero());
     if (goals.empty()) return makeError(ErrorCode::Degenerate, "no arm posture reaches the pose");
     ArmCollision world(robot);
-    world.setScene(sceneBoxes(arena), pose());
+    world.setScene(obstacles(arena), pose());
     std::string nearest;
     for (const Vector6d& q : goals) {
       if (hasRoom(world, q, config.clearance_m, nearest)) return q;

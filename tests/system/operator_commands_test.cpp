@@ -200,5 +200,22 @@ TEST(OperatorStart, AMissingTransformIsARowWithWhatToDoAndRefusesTheMissionByNam
   std::filesystem::remove_all(folder);
 }
 
+TEST(Devices, AMissionWithoutItsDevicesIsNotReadyAndSaysWhy) {
+  auto live = LiveSystem::start(3, {}, {"--without", "pumps"}, kiln::binaryDir() + "/bin");
+  ASSERT_TRUE(live.has_value()) << live.error();
+  auto person = (*live)->connectOperator("Ann");
+  ASSERT_TRUE(person.has_value()) << person.error();
+  const auto told = (*person)->waitFor("the reason", seconds(15), [](const View& v) {
+    return v.status && v.status->word == StatusWord::NotReady &&
+           v.status->reason.find("needs pumps, which this robot does not have") !=
+               std::string::npos;
+  });
+  ASSERT_TRUE(told.has_value()) << told.error() << "; " << (*person)->view().status->reason;
+  ASSERT_TRUE((*person)->command(AcquireLease{}).has_value());
+  EXPECT_FALSE((*person)->command(StartMission{}).has_value());
+  EXPECT_EQ((*person)->view().last_command->code, "not_ready");
+  EXPECT_NE((*person)->view().last_command->reason.find("pumps"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace kiln

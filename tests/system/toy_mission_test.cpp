@@ -52,5 +52,40 @@ TEST(ToyMission, ItsSectionOfTheConfigurationIsObeyed) {
   EXPECT_NEAR(nlohmann::json::parse(run->robot_json)["robot"]["toy_x_m"].get<double>(), 0.6, 0.1);
 }
 
+/// kiln-eval with the toy's evaluation in its table.
+struct Evaluated {
+  int status = -1;
+  nlohmann::json figures;  ///< {id: ok}
+  std::string log;
+};
+Evaluated evaluate(std::vector<std::string> arguments) {
+  const ScratchFolder scratch("toy-eval");
+  arguments.insert(arguments.begin(), binaryDir() + "/tests/kiln-eval-toy");
+  arguments.push_back("--json=" + scratch.file("figures.json"));
+  auto program = ChildProcess::start(arguments, scratch.file("log"));
+  EXPECT_TRUE(program.has_value());
+  Evaluated out;
+  out.status = program->wait(std::chrono::seconds(100)).value_or(-1);
+  out.log = tailOf(scratch.file("log"), 40);
+  std::ifstream in(scratch.file("figures.json"));
+  const auto json = nlohmann::json::parse(in, nullptr, false);
+  if (!json.is_discarded())
+    for (const auto& figure : json.at("figures")) out.figures[figure.at("id")] = figure.at("ok");
+  return out;
+}
+
+TEST(ToyMission, BringsItsEvaluationWithOptionsRuleAndGoals) {
+  const Programs programs;
+  const std::string where = "--programs=" + programs.folder.path();
+  const Evaluated good = evaluate({"toy", where});
+  EXPECT_EQ(good.status, 0) << good.log;
+  EXPECT_EQ(good.figures, nlohmann::json({{"stop_error_max_m", true}, {"success_rate", true}}));
+  const Evaluated lazy = evaluate({"toy", where, "--distance-m=0.3"});
+  EXPECT_EQ(lazy.status, 1) << lazy.log;
+  EXPECT_EQ(lazy.figures, nlohmann::json({{"stop_error_max_m", true}, {"success_rate", false}}))
+      << "its rule wants half a metre";
+  EXPECT_GT(evaluate({"fire"}).status, 1) << "only its own are known";
+}
+
 }  // namespace
 }  // namespace kiln

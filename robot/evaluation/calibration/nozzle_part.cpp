@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "common/core/log.h"
-#include "robot/skills/aim/jet.h"
+#include "robot/missions/fire/skills/jet.h"
 
 namespace kiln {
 namespace {

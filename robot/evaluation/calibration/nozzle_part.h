@@ -4,10 +4,10 @@
 #include <string>
 
 #include "robot/evaluation/calibration/calibration_rig.h"
+#include "robot/missions/fire/skills/spray_calibration.h"
 #include "robot/perception/calibration/nozzle_calibration.h"
 #include "robot/perception/calibration/thermal_calibration.h"
 #include "robot/perception/calibration/wet_spot.h"
-#include "robot/skills/aim/spray_calibration.h"
 
 namespace kiln {
 

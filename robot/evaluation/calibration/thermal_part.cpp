@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "common/core/log.h"
+#include "robot/missions/fire/skills/search_rectangle.h"
 #include "robot/perception/thermal/heat_detector.h"
-#include "robot/skills/look/search_rectangle.h"
 
 namespace kiln {
 namespace {

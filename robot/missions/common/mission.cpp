@@ -9,6 +9,8 @@ Result<void> Mission::command(const MissionCommand& command, const std::string&,
   return makeError(ErrorCode::Refused, "this mission does not know {}", command.name);
 }
 
+MacroStepKinds Mission::macroSteps(const MacroConfig&) const { return {}; }
+std::optional<Pose2> Mission::workPose(const std::string&) const { return std::nullopt; }
 std::vector<MissionAlarm> Mission::alarms(Stamp) const { return {}; }
 std::vector<Check> Mission::checks(Stamp) const { return {}; }
 std::vector<Figure> Mission::figures(Stamp) const { return {}; }

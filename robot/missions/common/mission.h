@@ -12,6 +12,7 @@
 #include "common/model/sensor.h"
 #include "common/model/status.h"
 #include "robot/fsm/machine.h"
+#include "robot/skills/macro_steps.h"
 
 namespace kiln {
 
@@ -50,6 +51,10 @@ class Mission {
   /// InvalidInput.
   [[nodiscard]] virtual Result<void> command(const MissionCommand& command,
                                              const std::string& operator_name, Stamp now);
+  /// Kinds of macro steps that it brings; the mission outlives them.
+  [[nodiscard]] virtual MacroStepKinds macroSteps(const MacroConfig& config) const;
+  /// Where the base works on a place that a macro names; nullopt: there is none of that name.
+  [[nodiscard]] virtual std::optional<Pose2> workPose(const std::string& place) const;
   /// Raised now. @pre observe() was called in this tick.
   [[nodiscard]] virtual std::vector<MissionAlarm> alarms(Stamp now) const;
   /// Rows of the preflight that this mission adds.

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "robot/hal/device_set.h"
 #include "robot/missions/common/mission.h"
 #include "robot/missions/common/mission_config.h"
 #include "robot/missions/common/mission_parts.h"
@@ -22,6 +23,7 @@ struct MissionKind {
   std::function<Result<std::unique_ptr<Mission>>(
       const MissionConfig& config, const std::string& mission_uuid, const MissionParts& parts)>
       make;
+  DeviceSet needs{};  ///< without them it does not start
 };
 
 }  // namespace kiln

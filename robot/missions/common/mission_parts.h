@@ -11,7 +11,6 @@
 #include "robot/control/pump_controller.h"
 #include "robot/hal/arm.h"
 #include "robot/scene/arena_map.h"
-#include "robot/skills/aim/spray_calibration.h"
 #include "robot/skills/motion.h"
 #include "robot/skills/surroundings.h"
 #include "robot/world_model/robot_belief.h"
@@ -29,7 +28,6 @@ struct MissionParts {
   ArmMotion& arm;         ///< MoveArm
   const Arm& arm_device;  ///< joints and safety mode
   PumpController& pumps;
-  const SprayCalibration& spray_calibration;
   std::function<Pose2()> pose;  ///< newest X_map_base
   Surroundings& surroundings;   ///< the live cloud
   /// Where the flange was in map at a stamp of the last seconds; nullopt: not known.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "robot/scene/obstacles.h"
+
 namespace kiln {
 namespace {
 constexpr double kSample_m = 0.05;
@@ -21,16 +23,8 @@ double groundDistance(const BoxConfig& box, double x_m, double y_m) {
 
 /// Lintels and the like are driven under.
 constexpr double kHeadroom_m = 2.0;
-bool isObstacle(const BoxConfig& box) {
+bool standsInTheWay(const BoxConfig& box) {
   return box.center.xyz_m[2] - 0.5 * box.size_m[2] < kHeadroom_m;
-}
-
-std::vector<BoxConfig> obstacles(const ArenaMap& arena) {
-  std::vector<BoxConfig> out = arena.fireFurniture();
-  out.insert(out.end(), arena.walls.begin(), arena.walls.end());
-  out.insert(out.end(), arena.furniture.begin(), arena.furniture.end());
-  std::erase_if(out, [](const BoxConfig& box) { return !isObstacle(box); });
-  return out;
 }
 
 double segmentDistance(const Pose2& a, const Pose2& b, const Pose2& p) {
@@ -44,7 +38,8 @@ double segmentDistance(const Pose2& a, const Pose2& b, const Pose2& p) {
 }  // namespace
 
 bool straightIsClear(const ArenaMap& arena, const Pose2& a, const Pose2& b, double radius_m) {
-  const std::vector<BoxConfig> boxes = obstacles(arena);
+  std::vector<BoxConfig> boxes = obstacles(arena);
+  std::erase_if(boxes, [](const BoxConfig& box) { return !standsInTheWay(box); });
   const int steps = 1 + static_cast<int>(std::hypot(b.x_m - a.x_m, b.y_m - a.y_m) / kSample_m);
   for (int i = 0; i <= steps; ++i) {
     const double s = static_cast<double>(i) / steps;

@@ -85,6 +85,8 @@ void FireSprayConfig::visit(ConfigArchive& a) {
           "of the expected time of a phase");
   a.field("flow_lpm", flow_lpm, "l/min", 0.1, 20.0, "both pumps, for the expected time");
   a.field("tank_l", tank_l, "l", 0.1, 50.0, "each tank when full");
+  a.field("macro_check_after_s", macro_check_after_s, "s", 0.5, 10.0,
+          "a pump without current by then fails a macro's step");
   a.section("pattern", pattern, "phase 2: hourglass");
 }
 

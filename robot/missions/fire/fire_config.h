@@ -1,8 +1,8 @@
 #pragma once
 
-#include "robot/skills/aim/aim_solver.h"
-#include "robot/skills/look/search_rectangle.h"
-#include "robot/skills/spray/spray_pattern.h"
+#include "robot/missions/fire/skills/aim_solver.h"
+#include "robot/missions/fire/skills/search_rectangle.h"
+#include "robot/missions/fire/skills/spray_pattern.h"
 
 namespace kiln {
 
@@ -73,13 +73,14 @@ struct FireSprayConfig {
   double duty = 1.0;
   double min_current_a = 1.0;  ///< "Pump draws current"
   double start_timeout_s = 3.0;
-  double idle_fault_s = 1.0;        ///< pumps that stay off so long while spraying are a fault
-  double off_current_a = 0.3;       ///< the pumps have stopped
-  double min_start_l = 0.2;         ///< a tank with less is not started
-  double delivered_share = 0.9;     ///< of the water: the place counts as extinguished
-  double phase_limit_factor = 3.0;  ///< of the time that the pump model expects
-  double flow_lpm = 3.2;            ///< both pumps, for that expectation
-  double tank_l = 5.0;              ///< each tank when full
+  double idle_fault_s = 1.0;         ///< pumps that stay off so long while spraying are a fault
+  double off_current_a = 0.3;        ///< the pumps have stopped
+  double min_start_l = 0.2;          ///< a tank with less is not started
+  double delivered_share = 0.9;      ///< of the water: the place counts as extinguished
+  double phase_limit_factor = 3.0;   ///< of the time that the pump model expects
+  double flow_lpm = 3.2;             ///< both pumps, for that expectation
+  double tank_l = 5.0;               ///< each tank when full
+  double macro_check_after_s = 1.0;  ///< a pump without current by then fails a macro's step
   SprayPatternConfig pattern;
   void visit(ConfigArchive& a);
 };

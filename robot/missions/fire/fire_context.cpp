@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "common/core/check.h"
-#include "robot/skills/aim/pose_step.h"
+#include "robot/missions/fire/skills/pose_step.h"
 
 namespace kiln {
 namespace {
@@ -17,7 +17,6 @@ constexpr double kAtWorkPose_m = 0.5;  // near enough to reach the place with th
 FireContext::FireContext(const FireDevices& fire_devices, const FireConfig& fire_config)
     : devices(fire_devices),
       config(fire_config),
-      calibration(fire_devices.spray_calibration),
       belief(initialFireBelief(fire_devices.arena)),
       heat(fire_devices.heat),
       look(fire_config.search.motion, fire_devices.robot, fire_devices.arm),

@@ -9,14 +9,15 @@
 #include "robot/missions/common/stowed_drive.h"
 #include "robot/missions/fire/fire_belief.h"
 #include "robot/missions/fire/fire_config.h"
-#include "robot/skills/look/heat_watch.h"
-#include "robot/skills/look/look_around.h"
+#include "robot/missions/fire/skills/heat_watch.h"
+#include "robot/missions/fire/skills/look_around.h"
 
 namespace kiln {
 
 /// What the fire mission works with; all outlive it.
 struct FireDevices : MissionParts {
   HeatSweep& heat;  ///< HeatLocalizer behind an adapter
+  SprayCalibration calibration;
 };
 
 /// What the states of the fire mission share. Confined to the mission thread.
@@ -26,7 +27,7 @@ class FireContext {
 
   const FireDevices devices;
   const FireConfig config;
-  const SprayCalibration calibration;
+  const SprayCalibration& calibration = devices.calibration;
   FireBelief belief;
   HeatWatch heat;
   LookAround look;

@@ -11,7 +11,8 @@
 #include "common/wire/fire/fire_view.h"
 #include "robot/missions/fire/fire_machine.h"
 #include "robot/missions/fire/fire_report.h"
-#include "robot/skills/aim/jet.h"
+#include "robot/missions/fire/macro_steps.h"
+#include "robot/missions/fire/skills/jet.h"
 
 namespace kiln {
 namespace {
@@ -205,6 +206,16 @@ std::vector<PlaceCheck> FireMission::placeChecks() const {
   std::vector<PlaceCheck> out;
   for (const auto& [name, check] : impl_->context.place_checks) out.push_back(check);
   return out;
+}
+
+MacroStepKinds FireMission::macroSteps(const MacroConfig& config) const {
+  return fireMacroSteps(impl_->context, config);
+}
+
+std::optional<Pose2> FireMission::workPose(const std::string& place) const {
+  for (const FirePlaceConfig& known : impl_->context.devices.arena.fire_places)
+    if (known.name == place) return known.work_pose.pose();
+  return std::nullopt;
 }
 
 std::vector<MissionAlarm> FireMission::alarms(Stamp now) const {

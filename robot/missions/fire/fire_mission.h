@@ -30,6 +30,8 @@ class FireMission final : public Mission {
   [[nodiscard]] MissionInfo info() const override;
   [[nodiscard]] Result<void> command(const MissionCommand& command,
                                      const std::string& operator_name, Stamp now) override;
+  [[nodiscard]] MacroStepKinds macroSteps(const MacroConfig& config) const override;
+  [[nodiscard]] std::optional<Pose2> workPose(const std::string& place) const override;
   [[nodiscard]] std::vector<MissionAlarm> alarms(Stamp now) const override;
   [[nodiscard]] std::vector<Check> checks(Stamp now) const override;
   [[nodiscard]] std::vector<Figure> figures(Stamp now) const override;

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "robot/missions/fire/skills/heat_sweep.h"
 #include "robot/perception/thermal/heat_localizer.h"
-#include "robot/skills/look/heat_sweep.h"
 
 namespace kiln {
 

@@ -1,5 +1,6 @@
 #include "robot/missions/fire/make_fire.h"
 
+#include "common/config/resources.h"
 #include "robot/missions/fire/fire_mission.h"
 
 namespace kiln {
@@ -9,9 +10,12 @@ namespace {
 struct FireSection {
   FireConfig mission;
   HeatTask::Config heat;
+  std::string spray_calibration = "config/spray_calibration.yaml";
   void visit(ConfigArchive& a) {
     mission.visit(a);
     a.section("heat", heat, "where the heat is");
+    a.field("spray_calibration", spray_calibration,
+            "resource file written by kiln-eval spray-calibration");
   }
 };
 
@@ -23,8 +27,11 @@ Result<std::unique_ptr<Mission>> makeFire(const MissionConfig& config,
     return makeError(ErrorCode::InvalidInput,
                      "arena '{}' has no fire_places: there is nothing to look for",
                      parts.arena.name);
+  const auto spray = loadResource<SprayCalibration>(section.spray_calibration);
+  if (!spray) return tl::make_unexpected(spray.error());
+  if (auto valid = spray->validate(); !valid) return tl::make_unexpected(valid.error());
   auto heat = std::make_unique<HeatTask>(section.heat, parts.executor);
-  const FireDevices devices{parts, heat->sweep()};
+  const FireDevices devices{parts, heat->sweep(), *spray};
   return std::make_unique<FireMission>(devices, section.mission, mission_uuid, std::move(heat));
 }
 
@@ -36,7 +43,8 @@ MissionKind fireMissionKind() {
           "fire",
           "",
           [] { return std::make_unique<MissionConfigOf<FireSection>>(); },
-          makeFire};
+          makeFire,
+          {DeviceKind::Pumps, DeviceKind::Lidar, DeviceKind::ThermalCamera}};
 }
 
 }  // namespace kiln

@@ -69,7 +69,8 @@ MissionKind mappingMissionKind() {
           "fire",
           "walls",
           [] { return std::make_unique<MissionConfigOf<MappingConfig>>(); },
-          make};
+          make,
+          {DeviceKind::Lidar}};
 }
 
 }  // namespace kiln

@@ -5,10 +5,10 @@
 #include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
+#include "robot/missions/fire/skills/pose_step.h"
 #include "robot/missions/fire/states/arm_blocked.h"
 #include "robot/missions/fire/states/lost_target.h"
 #include "robot/missions/fire/states/start_pump.h"
-#include "robot/skills/aim/pose_step.h"
 
 namespace kiln {
 namespace {

@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
+#include "robot/missions/fire/skills/spray_pattern.h"
 #include "robot/missions/fire/states/aim_hose.h"
 #include "robot/missions/fire/states/arm_blocked.h"
 #include "robot/missions/fire/states/pump_fault.h"
 #include "robot/missions/fire/states/spray_steady.h"
 #include "robot/missions/fire/states/spraying.h"
 #include "robot/missions/fire/states/stop_pump.h"
-#include "robot/skills/spray/spray_pattern.h"
 
 namespace kiln {
 

@@ -45,6 +45,23 @@ TEST(Preflight, PassesAHealthyRobot) {
   }
 }
 
+TEST(Preflight, NamesTheDevicesThatTheMissionLacks) {
+  PreflightInputs in = healthy();
+  in.lacking = {DeviceKind::Pumps, DeviceKind::ThermalCamera};
+  EXPECT_EQ(firstFailure(preflight(in, {})),
+            "Devices: this mission needs pumps and a thermal camera, which this robot does not "
+            "have; start another mission");
+}
+
+TEST(Preflight, ARobotWithoutPumpsIsNotAskedForThem) {
+  PreflightInputs in = healthy();
+  in.pumps.reset();
+  in.pumps_age_s.reset();
+  EXPECT_FALSE(allOk(preflight(in, {})));
+  in.has_pumps = false;
+  EXPECT_TRUE(allOk(preflight(in, {}))) << firstFailure(preflight(in, {}));
+}
+
 TEST(Preflight, NamesEachFailureWithWhatToDo) {
   struct Case {
     std::string name;

@@ -119,6 +119,27 @@ TEST_F(TeleopTest, EachActuatorRunsWhatItIsCalled) {
   }
 }
 
+TEST_F(TeleopTest, ArmJogStopsBeforeAPlaceWhereItStandsNow) {
+  run(milliseconds(200));
+  teleop_.setSpeedScale(1.0);
+  FirePlaceConfig place;
+  place.name = "place 1";
+  place.plate_xyz_m = {6.0, 0.0, 1.0};
+  arena_.fire_places = {place};
+  JogArm jog;
+  jog.frame = JogFrame::Base;
+  jog.velocity[0] = 0.1;  // forward, out of its drive pose
+  teleop_.jogArm(jog, arm_device_.state()->q, Pose2{}, clock_.now(), 1.0);
+  EXPECT_EQ(teleop_.blocked(), "") << "far away";
+  const double reach_m = robot_.X_base_flange(arm_device_.state()->q).translation().x();
+  arena_.movePlace(0, {reach_m + 0.3, 0.0, 1.0}, M_PI);
+  teleop_.jogArm(jog, arm_device_.state()->q, Pose2{}, clock_.now(), 1.0);
+  EXPECT_NE(teleop_.blocked().find("place 1"), std::string::npos) << teleop_.blocked();
+  arena_.movePlace(0, {6.0, 0.0, 1.0}, M_PI);
+  teleop_.jogArm(jog, arm_device_.state()->q, Pose2{}, clock_.now(), 1.0);
+  EXPECT_EQ(teleop_.blocked(), "") << "moved away again";
+}
+
 TEST_F(TeleopTest, ReleaseAllStopsEverythingAtOnce) {
   run(milliseconds(200));
   teleop_.holdActuator({kPumps, 1.0}, clock_.now());

@@ -178,6 +178,14 @@ TEST(CommandGate, FollowsTheModeTable) {
   }
 }
 
+TEST(CommandGate, RefusesPumpsByHandWhereThereAreNone) {
+  Desk desk;
+  EXPECT_EQ(desk.code(HoldPump{1.0, 1.0}), "");
+  desk.situation.has_pumps = false;
+  EXPECT_EQ(desk.code(HoldPump{1.0, 1.0}), "no_device");
+  EXPECT_EQ(desk.code(HoldMacro{"arm park", false}), "");
+}
+
 TEST(CommandGate, LatencySlowsJogsInSteps) {
   Desk desk;
   const auto scale = [&](double rtt_s) {

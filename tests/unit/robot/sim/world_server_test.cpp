@@ -74,6 +74,27 @@ TEST_F(WorldServerTest, LockstepStepsAnswersAndWritesTheTruthAtBye) {
   EXPECT_GT(truth["pump_on_s"].get<double>(), 0.9);
 }
 
+TEST_F(WorldServerTest, TellsWhatTheRobotLacksAndKeepsIt) {
+  config.devices = {DeviceKind::Lidar};
+  serve();
+  auto link = SimLink::connect(link_config, clock);
+  ASSERT_TRUE(link.has_value()) << link.error();
+  EXPECT_EQ((*link)->world().devices, config.devices);
+  int scans = 0, images = 0;
+  ASSERT_TRUE((*link)->lidar().start([&](const PointCloudPtr&) { ++scans; }).has_value());
+  ASSERT_TRUE(
+      (*link)->thermalCamera().start([&](const ThermalImagePtr&) { ++images; }).has_value());
+  for (int i = 1; i <= 50; ++i) {
+    ASSERT_TRUE((*link)->pumps().write({1.0, 1.0}).has_value());
+    ASSERT_TRUE((*link)->advanceTo(stampFromNanoseconds(i * 20'000'000LL)).has_value());
+  }
+  EXPECT_GT(scans, 5);
+  EXPECT_EQ(images, 0);
+  EXPECT_FALSE((*link)->pumps().state().has_value());
+  EXPECT_TRUE((*link)->arm().state().has_value());
+  EXPECT_EQ(world->truth().pump_on_s, 0.0);
+}
+
 TEST_F(WorldServerTest, SecondRobotIsRefusedInWords) {
   serve();
   auto first = SimLink::connect(link_config, clock);

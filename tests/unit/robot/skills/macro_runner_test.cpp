@@ -3,84 +3,39 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "common/core/clock.h"
 #include "robot/safety/dead_man.h"
-#include "tests/support/fake_devices.h"
-#include "tests/unit/robot/planning/arm_motion/bob.h"
+#include "tests/unit/robot/skills/macro_steps_for_tests.h"
 
 namespace kiln {
 namespace {
 
 using ::testing::HasSubstr;
 
-/// An arm whose every motion takes half a second, or fails.
-class ScriptedArm final : public ArmMotion {
- public:
-  void startJoints(const Vector6d&, Stamp now) override { begin(now); }
-  void startPose(const Eigen::Isometry3d&, Stamp now) override { begin(now); }
-  void startCartesian(std::vector<Eigen::Isometry3d> poses, bool, Stamp now) override {
-    begin(now);
-    last_round = poses.size();
-  }
-  void startBack(double, Stamp now) override { begin(now); }
-  SkillStatus poll(Stamp now) override {
-    if (!fail.empty()) return {SkillPhase::Failed, 0.0, fail, "contact"};
-    if (!moving) return {};
-    const double s = toSeconds(now - started) / 0.5;
-    if (s >= 1.0) moving = false;
-    return {s >= 1.0 ? SkillPhase::Done : SkillPhase::Running, std::min(1.0, s), "", ""};
-  }
-  void cancel() override {
-    moving = false;
-    ++cancels;
-  }
-  Result<Vector6d> check(const Eigen::Isometry3d&) const override {
-    return Vector6d::Zero().eval();
-  }
-
-  bool moving = false;
-  int starts = 0, cancels = 0;
-  std::size_t last_round = 0;
-  std::string fail;
-
- private:
-  void begin(Stamp now) {
-    moving = true;
-    started = now;
-    ++starts;
-  }
-  Stamp started;
-};
-
-MacroStep step(const char* action, double seconds = 1.0) {
-  MacroStep s;
-  s.action = action;
-  s.seconds = seconds;
-  s.pose = "park";
-  s.place = "place 1";
-  return s;
-}
-
 class MacroRunnerTest : public ::testing::Test {
  protected:
-  void make(std::vector<MacroStep> steps, const std::string& place = "") {
+  /// @param steps  YAML: "{ do: wait, seconds: 1 }"
+  void make(const std::vector<std::string>& steps, const std::string& place = "") {
+    std::string yaml = "name: try\nsteps:\n";
+    for (const std::string& step : steps) yaml += "  - " + step + "\n";
     Macro macro;
-    macro.name = "try";
+    const ConfigNode root{[&](ConfigArchive& a) { macro.visit(a, testSteps(robot, arm, light)); }};
+    const auto read = loadYamlText(yaml, "try.yaml", root);
+    ASSERT_TRUE(read.has_value()) << read.error();
     macro.place = place;
-    macro.steps = std::move(steps);
+    std::vector<Macro> macros;
+    macros.push_back(std::move(macro));
     runner.emplace(
-        MacroRunnerConfig{},
-        MacroRunner::Parts{robot, arena, arm, pumps, SprayCalibration{}, [this] { return base; },
-                           [] { return std::optional(Eigen::Isometry3d::Identity()); },
+        MacroRunner::Parts{[this] { return base; },
+                           [](const std::string& name) {
+                             return name == "shelf" ? std::optional(Pose2{2, 1, 0}) : std::nullopt;
+                           },
                            [this] { return epoch; }},
-        std::vector<Macro>{macro});
+        std::move(macros));
   }
-  /// One mission tick as the daemon does it; control and devices run beside.
+  /// One mission tick as the daemon does it.
   void tick(bool held) {
-    for (int i = 0; i < 5; ++i) {
-      clock.advanceBy(std::chrono::milliseconds(4));
-      device.advance();
-      pumps.tick(clock.now());
-    }
+    clock.advanceBy(std::chrono::milliseconds(20));
     hold.expire(clock.now());
     if (held) {
       if (hold.mayFeed(command())) {
@@ -94,6 +49,7 @@ class MacroRunnerTest : public ::testing::Test {
     }
     runner->poll(clock.now(), hold.held(HoldKind::Macro, clock.now()));
     if (!runner->running()) hold.end(HoldKind::Macro);
+    if (light) lit_s += 0.02;
   }
   [[nodiscard]] Command command() const {
     Command command;
@@ -109,48 +65,46 @@ class MacroRunnerTest : public ::testing::Test {
   DeadMan hold{DeadMan::Config{}};  ///< says whether the press still counts
   std::uint64_t press = 1;
   ManualClock clock{Stamp{std::chrono::seconds(10)}};
-  RobotGeometry robot = loadBob();
-  ArenaMap arena = loadKitchen();
-  Pose2 base = arena.fire_places[0].work_pose.pose();
-  FakePumps device{clock};
-  StopLatch stop;
-  PumpController pumps{{}, device, stop};
+  RobotGeometry robot;
+  Pose2 base{2, 1, 0};
   ScriptedArm arm;
+  bool light = false;
+  double lit_s = 0.0;
   std::uint64_t epoch = 1;
   bool restart = false;
   std::optional<MacroRunner> runner;
 };
 
 TEST_F(MacroRunnerTest, RunsItsStepsInOrderAndIsDone) {
-  make({step("arm"), step("spray", 2.0), step("wait", 0.5)});
+  make({"{ do: arm, pose: park }", "{ do: light, seconds: 2, colour: red }",
+        "{ do: wait, seconds: 0.5 }"});
   run(0.2);
   EXPECT_EQ(runner->status().running, "try");
   EXPECT_EQ(runner->status().step, 1);
   run(1.5);
-  EXPECT_TRUE(pumps.tracking().spraying);
+  EXPECT_TRUE(light);
   EXPECT_EQ(runner->status().step, 2);
   run(2.0);
   EXPECT_FALSE(runner->running());
   EXPECT_EQ(runner->status().last_result, "done");
-  EXPECT_NEAR(device.trueLitres(), 2.0 * 3.2 / 60.0, 0.03);
+  EXPECT_NEAR(lit_s, 2.0, 0.03);
 }
 
-TEST_F(MacroRunnerTest, LettingGoStopsArmAndPumpsAtOnce) {
-  make({step("arm"), step("spray", 10.0)});
+TEST_F(MacroRunnerTest, LettingGoAbortsTheStepAtOnce) {
+  make({"{ do: arm, pose: park }", "{ do: light, seconds: 10, colour: red }"});
   run(0.3);
   tick(false);
   EXPECT_EQ(arm.cancels, 1);
   EXPECT_FALSE(runner->running());
   run(3.0);  // held again: on with the step
-  EXPECT_TRUE(pumps.tracking().spraying);
+  EXPECT_TRUE(light);
   tick(false);
-  run(0.1, false);
-  EXPECT_EQ(pumps.tracking().duty[0], 0.0);
+  EXPECT_FALSE(light);
   EXPECT_EQ(runner->status().last_result, "cancelled: released");
 }
 
 TEST_F(MacroRunnerTest, HeldAgainItGoesOnWithTheInterruptedStepOrRestarts) {
-  make({step("arm"), step("wait", 5.0)});
+  make({"{ do: arm, pose: park }", "{ do: wait, seconds: 5 }"});
   run(1.0);
   EXPECT_EQ(arm.starts, 1);
   tick(false);
@@ -164,8 +118,29 @@ TEST_F(MacroRunnerTest, HeldAgainItGoesOnWithTheInterruptedStepOrRestarts) {
   EXPECT_EQ(arm.starts, 2);
 }
 
+TEST_F(MacroRunnerTest, ManyPressesOnAJitteryLinkMakeTheStepNoLonger) {
+  make({"{ do: light, seconds: 4, colour: red }"});
+  while (runner->status().last_result != "done" && clock.now() < Stamp{std::chrono::seconds(60)}) {
+    run(0.7);
+    tick(false);
+    run(0.3, false);
+  }
+  EXPECT_EQ(runner->status().last_result, "done");
+  EXPECT_NEAR(lit_s, 4.0, 0.2);
+}
+
+TEST_F(MacroRunnerTest, RestartedStepBeginsAtItsBeginning) {
+  make({"{ do: light, seconds: 2, colour: red }"});
+  run(1.5);
+  tick(false);
+  restart = true;
+  lit_s = 0.0;
+  run(3.0);
+  EXPECT_NEAR(lit_s, 2.0, 0.03);
+}
+
 TEST_F(MacroRunnerTest, EndedMacroStartsAnewOnlyAfterLettingGo) {
-  make({step("wait", 0.1)});
+  make({"{ do: wait, seconds: 0.1 }"});
   run(2.0);
   EXPECT_EQ(runner->status().last_result, "done");
   EXPECT_FALSE(runner->running());
@@ -175,34 +150,26 @@ TEST_F(MacroRunnerTest, EndedMacroStartsAnewOnlyAfterLettingGo) {
 }
 
 TEST_F(MacroRunnerTest, SafetyEpochEndsIt) {
-  make({step("spray", 10.0)});
+  make({"{ do: light, seconds: 10, colour: red }"});
   run(1.0);
   ++epoch;  // STOP or a change of the lease
   tick(true);
   EXPECT_FALSE(runner->running());
+  EXPECT_FALSE(light);
   EXPECT_THAT(runner->status().last_result, HasSubstr("control changed"));
   run(1.0);  // the key is still down: nothing comes back by itself
   EXPECT_FALSE(runner->running());
-  EXPECT_EQ(pumps.tracking().duty[0], 0.0);
 }
 
-TEST_F(MacroRunnerTest, FailedArmAndDryPumpFailTheMacroInWords) {
-  make({step("arm")});
+TEST_F(MacroRunnerTest, FailedStepFailsTheMacroInWords) {
+  make({"{ do: arm, pose: park }"});
   arm.fail = "contact of 70 N at the tool";
   run(0.2);
-  EXPECT_THAT(runner->status().last_result, HasSubstr("contact of 70 N"));
-
-  arm.fail.clear();
-  ++press;
-  make({step("spray", 10.0)});
-  device.setDry(0, true);
-  run(4.0);
-  EXPECT_THAT(runner->status().last_result, HasSubstr("no current"));
-  EXPECT_EQ(pumps.tracking().duty[1], 0.0);
+  EXPECT_THAT(runner->status().last_result, HasSubstr("arm to park: contact of 70 N"));
 }
 
 TEST_F(MacroRunnerTest, RefusesToStartAwayFromItsPlace) {
-  make({step("wait")}, "place 1");
+  make({"{ do: wait }"}, "shelf");
   base.x_m += 0.4;
   run(0.2);
   EXPECT_FALSE(runner->running());
@@ -215,30 +182,27 @@ TEST_F(MacroRunnerTest, RefusesToStartAwayFromItsPlace) {
   EXPECT_TRUE(runner->running());
 }
 
-TEST_F(MacroRunnerTest, UnknownNameIsSaid) {
-  make({step("wait")});
-  runner->hold("spray fire 9", false, clock.now());
-  EXPECT_THAT(runner->status().last_result, HasSubstr("no macro 'spray fire 9'"));
+TEST_F(MacroRunnerTest, UnknownNamesAreSaid) {
+  make({"{ do: wait }"}, "attic");
+  runner->hold("dance", false, clock.now());
+  EXPECT_THAT(runner->status().last_result, HasSubstr("no macro 'dance'"));
+  runner->hold("try", false, clock.now());
+  EXPECT_THAT(runner->status().last_result, HasSubstr("no place 'attic'"));
 }
 
-TEST_F(MacroRunnerTest, HourglassMovesWhileItSprays) {
-  auto spray = step("spray", 3.0);
-  spray.pattern = "hourglass";
-  make({spray});
-  run(2.0);
-  EXPECT_GE(arm.starts, 3);  // round after round
-  EXPECT_GT(arm.last_round, 4u);
-  EXPECT_TRUE(pumps.tracking().spraying);
+TEST_F(MacroRunnerTest, ToolStepBringsTheToolToItsPose) {
+  make({"{ do: tool, xyz_m: [1, 0.5, 0.8], yaw_deg: 90, pitch_deg: 0 }"});
+  run(0.1);
+  EXPECT_NEAR((arm.X_goal.translation() - Eigen::Vector3d(1, 0.5, 0.8)).norm(), 0.0, 1e-9);
+  EXPECT_NEAR((arm.X_goal.linear().col(0) - Eigen::Vector3d::UnitY()).norm(), 0.0, 1e-9);
 }
 
-TEST_F(MacroRunnerTest, ListTellsDurationWaterAndStartCondition) {
-  auto spray = step("spray", 30.0);
-  spray.duty = 0.5;
-  make({step("arm"), spray}, "place 1");
+TEST_F(MacroRunnerTest, ListTellsDurationUseAndStartCondition) {
+  make({"{ do: arm, pose: park }", "{ do: light, seconds: 30, colour: red }"}, "shelf");
   const auto info = runner->list().at(0);
   EXPECT_NEAR(info.duration_s, 6.0 + 30.0, 1e-9);
-  EXPECT_EQ(info.uses, "est. 0.8 l") << 2 * 1.6 / 60.0 * 0.5 * 30.0;
-  EXPECT_THAT(info.start_condition, HasSubstr("place 1"));
+  EXPECT_EQ(info.uses, "est. 3.0 l");
+  EXPECT_THAT(info.start_condition, HasSubstr("shelf"));
 }
 
 }  // namespace

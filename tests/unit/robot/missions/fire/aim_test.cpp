@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "robot/skills/aim/jet.h"
+#include "robot/missions/fire/skills/jet.h"
 #include "tests/unit/robot/missions/fire/fire_rig.h"
 
 namespace kiln {

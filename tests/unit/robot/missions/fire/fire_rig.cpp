@@ -88,10 +88,11 @@ void FireRig::build() {
   pumps = std::make_unique<PumpController>(PumpController::Config{}, pumps_device, stop);
   belief = {};
   const FireDevices devices{
-      {clock, executor_, arena, robot, belief, base, arm, arm_device, *pumps, spray_calibration_,
+      {clock, executor_, arena, robot, belief, base, arm, arm_device, *pumps,
        [this] { return base.pose(); }, surroundings, [](Stamp) { return std::nullopt; },
        [](const ThermalImagePtr&) {}, [](const MissionDetail&) {}},
-      sweep};
+      sweep,
+      spray_calibration_};
   mission = std::make_unique<FireMission>(devices, config, "test-uuid");
   host = std::make_unique<MissionHost>(*mission, belief, stop, clock,
                                        CheckpointKeeper::Config{options_.checkpoint_path});

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "common/config/config_archive.h"
-#include "robot/scene/arena_map.h"
+#include "robot/scene/obstacles.h"
 #include "tests/support/paths.h"
 
 namespace kiln {
@@ -22,10 +22,7 @@ inline ArenaMap loadKitchen() {
   return arena;
 }
 inline std::vector<BoxConfig> kitchenBoxes(const ArenaMap& arena) {
-  std::vector<BoxConfig> boxes = arena.walls;
-  boxes.insert(boxes.end(), arena.furniture.begin(), arena.furniture.end());
-  for (const BoxConfig& box : arena.fireFurniture()) boxes.push_back(box);
-  return boxes;
+  return obstacles(arena);
 }
 /// Flange pose in base at which the thermal camera stands at p and looks along base X, upright.
 inline Eigen::Isometry3d flangeForCamera(const RobotGeometry& robot,

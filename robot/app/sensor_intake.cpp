@@ -1,0 +1,87 @@
+#include "robot/app/sensor_intake.h"
+
+#include <utility>
+
+#include "common/core/log.h"
+#include "common/geom/frames.h"
+#include "robot/app/run_recorder.h"
+
+namespace kiln {
+namespace {
+
+void warnIfFailed(const Result<void>& started) {
+  if (!started) logger("robot")->error("{}", started.error().message);
+}
+
+}  // namespace
+
+SensorIntake::SensorIntake(RobotBody& body, const ScanLocator& locator, Executor& executor)
+    : body_(body),
+      self_filter_(body.robot, body.settings.self_filter),
+      perception_(body.settings.perception, executor, body.robot, history_, self_filter_, locator,
+                  body.settings.surroundings.obstacles),
+      surroundings_(body.settings.surroundings, fireBoxSizes(body.arena), executor) {}
+
+void SensorIntake::start(std::function<void(ThermalImagePtr)> thermal,
+                         std::function<void(RgbImagePtr)> picture) {
+  picture_ = std::move(picture);
+  body_.drive.setSurroundings(&surroundings_);
+  body_.move_arm.setSurroundings(&surroundings_);
+  const Devices& devices = body_.devices;
+  if (devices.lidar)
+    warnIfFailed(devices.lidar->start([this](PointCloudPtr scan) {
+      if (body_.options.recorder) body_.options.recorder->scan(scan);
+      perception_.onScan(std::move(scan));
+    }));
+  if (devices.thermal) warnIfFailed(devices.thermal->start(std::move(thermal)));
+}
+
+void SensorIntake::stop() {
+  if (body_.devices.lidar) body_.devices.lidar->stop();
+  if (body_.devices.thermal) body_.devices.thermal->stop();
+  if (body_.devices.operator_camera) body_.devices.operator_camera->stop();
+}
+
+void SensorIntake::remember(const Pose2& X_odom_base) {
+  const auto arm_state = body_.devices.arm.state();
+  if (arm_state) history_.add({arm_state->stamp, arm_state->q, X_odom_base});
+}
+
+void SensorIntake::forget() {
+  history_.clear();
+  surroundings_.clear();
+}
+
+void SensorIntake::place(PerceptionJobs::ScanResult& result, const TrackedPose& tracked) {
+  const auto sample = history_.at(result.cloud->stamp);
+  if (!sample || !result.obstacles) return;
+  // Height and tilt are those of now, a tenth of a second later.
+  const Eigen::Isometry3d X_plane_base =
+      toIsometry(tracked.X_map_base).inverse() * tracked.X_map_base_3d;
+  surroundings_.add({result.cloud, std::move(*result.obstacles), sample->X_odom_base,
+                     toIsometry(tracked.X_map_odom * sample->X_odom_base) * X_plane_base});
+}
+
+std::optional<Eigen::Isometry3d> SensorIntake::flangeAt(Stamp stamp,
+                                                        const TrackedPose& tracked) const {
+  const auto sample = history_.at(stamp);
+  if (!sample) return std::nullopt;
+  return toIsometry(tracked.X_map_odom * sample->X_odom_base) *
+         body_.robot.X_base_flange(sample->q);
+}
+
+void SensorIntake::runCameraOnDemand(OperatorLink* link) {
+  RgbCamera* camera = body_.devices.operator_camera;
+  if (!camera || !link) return;
+  const RunRecorder* recorder = body_.options.recorder;
+  if (recorder) link->keepPictures(recorder->config().pictures && recorder->on());
+  const bool wanted = link->wanted(frames::kOperatorCamera);
+  if (wanted == camera_runs_) return;
+  camera_runs_ = wanted;
+  if (wanted)
+    warnIfFailed(camera->start(picture_));
+  else
+    camera->stop();
+}
+
+}  // namespace kiln
