@@ -14,7 +14,6 @@
 #include "gui/app/screenshots.h"
 #include "gui/app/stall_meter.h"
 #include "gui/app/stop_probe.h"
-#include "gui/link/fake_link.h"
 #include "gui/link/replay_link.h"
 #include "gui/link/robot_link.h"
 #include "gui/views/scene3d/scene_renderer.h"
@@ -55,18 +54,11 @@ Result<std::unique_ptr<Link>> makeLink(const StationOptions& options) {
     if (!replay) return tl::make_unexpected(replay.error());
     return std::unique_ptr<Link>(std::move(*replay));
   }
-  if (!options.fake) {
-    auto live = std::make_unique<RobotLink>(
-        RobotLink::Options{options.endpoint, options.operator_name, KILN_VERSION});
-    if (const auto connected = live->connectToRobot(); !connected)
-      return tl::make_unexpected(connected.error());
-    return live;
-  }
-  FakeLink::Options fake;
-  fake.seed = *options.fake;
-  fake.speed = options.fake_speed;
-  fake.autostart = true;
-  return std::make_unique<FakeLink>(fake);
+  auto live = std::make_unique<RobotLink>(
+      RobotLink::Options{options.endpoint, options.operator_name, KILN_VERSION});
+  if (const auto connected = live->connectToRobot(); !connected)
+    return tl::make_unexpected(connected.error());
+  return live;
 }
 
 int run(int argc, char** argv, const StationOptions& options) {

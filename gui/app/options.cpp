@@ -23,13 +23,8 @@ std::optional<int> parseOptions(int argc, char** argv, StationOptions& options) 
       ->transform(CLI::CheckedTransformer(themes));
   app.add_option("--screenshot", options.screenshots,
                  "save a picture at each new state and at the end into this folder");
-  auto* replay = app.add_option("--replay", options.replay,
-                                "play a recording (.mcap) in the window; nothing can be commanded");
-  auto* fake =
-      app.add_option("--fake", options.fake, "no robot: act out a scripted mission with this seed");
-  replay->excludes(fake);
-  app.add_option("--fake-speed", options.fake_speed, "times real time, with --fake")
-      ->check(CLI::Range(0.1, 20.0));
+  app.add_option("--replay", options.replay,
+                 "play a recording (.mcap) in the window; nothing can be commanded");
   std::string size;
   app.add_option("--size", size, "window size, WxH, at least 1280x720");
   app.add_flag("--exit-when-done", options.exit_when_done, "leave when the mission has ended");

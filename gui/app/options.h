@@ -15,8 +15,6 @@ struct StationOptions {
   ThemeKind theme = ThemeKind::Dark;
   std::string screenshots;            ///< folder; empty = none
   std::string replay;                 ///< recording to play; empty = none
-  std::optional<std::uint64_t> fake;  ///< seed
-  double fake_speed = 1.0;
   int width = 1680, height = 1020;
   bool exit_when_done = false;
   bool stall_report = false;

@@ -1,5 +1,7 @@
 #include "gui/ctl/commands.h"
 
+#include <cstdio>
+
 #include "gui/ctl/json_view.h"
 #include "gui/ctl/signals.h"
 
@@ -122,6 +124,7 @@ int missionCommand(Console& console, const std::string& name, const std::string&
 
 int listAlarms(Console& console) {
   if (!console.connect()) return kNoLink;
+  if (console.status().alarms.empty() && !console.options().json) std::puts("no alarms");
   for (const Alarm& alarm : console.status().alarms) {
     console.print(toJson(alarm),
                   fmt::format("{:<24} {}{}: {}", alarm.id, alarm.text,

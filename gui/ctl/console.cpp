@@ -97,7 +97,9 @@ bool Console::takeControl() {
     return true;
   }
   if (update) {
-    print(toJson(*update), fmt::format("no control: {}", update->reason));
+    printRefusal(toJson(*update),
+                 fmt::format("no control: {}{}", update->reason,
+                             update->code == "lease_held" ? " (--take-over asks)" : ""));
   } else {
     fail(kRefused, "no control: no answer from the robot");
   }
@@ -112,12 +114,16 @@ void Console::giveControlBack() {
 int Console::run(CommandBody body) {
   const auto update = waitForEnd(session_->send(std::move(body)), kAnswer_s);
   if (!update) return fail(kRefused, "interrupted before the robot answered");
-  print(toJson(*update),
-        update->reason.empty()
-            ? fmt::format("{}: {}", update->command, toString(update->state))
-            : fmt::format("{}: {}: {}", update->command, toString(update->state), update->reason));
-  return update->state == CommandState::Done || update->state == CommandState::Accepted ? kDone
-                                                                                        : kRefused;
+  const std::string text =
+      update->reason.empty()
+          ? fmt::format("{}: {}", update->command, toString(update->state))
+          : fmt::format("{}: {}: {}", update->command, toString(update->state), update->reason);
+  if (update->state == CommandState::Done || update->state == CommandState::Accepted) {
+    print(toJson(*update), text);
+    return kDone;
+  }
+  printRefusal(toJson(*update), text);
+  return kRefused;
 }
 
 std::optional<CommandUpdate> Console::waitForEnd(std::uint64_t nonce, double limit_s,
@@ -160,15 +166,19 @@ void Console::print(const nlohmann::json& object, const std::string& text) const
   std::fflush(stdout);
 }
 
+void Console::printRefusal(const nlohmann::json& object, const std::string& text) const {
+  if (options_.json)
+    print(object, "");
+  else
+    std::fprintf(stderr, "kilnctl: %s\n", text.c_str());
+}
+
 int Console::fail(int code, const std::string& reason, const std::string& error_code) {
-  if (options_.json) {
-    print({{"outcome", "failed"},
-           {"code", error_code.empty() ? (code == kNoLink ? "no_link" : "failed") : error_code},
-           {"reason", reason}},
-          "");
-  } else {
-    std::fprintf(stderr, "kilnctl: %s\n", reason.c_str());
-  }
+  printRefusal(
+      {{"outcome", "failed"},
+       {"code", error_code.empty() ? (code == kNoLink ? "no_link" : "failed") : error_code},
+       {"reason", reason}},
+      reason);
   return code;
 }
 

@@ -55,6 +55,8 @@ class Console {
   void sleepThroughSignals(double seconds);
 
   void print(const nlohmann::json& object, const std::string& text) const;
+  /// A refusal: the object to standard output with --json, else the text to standard error.
+  void printRefusal(const nlohmann::json& object, const std::string& text) const;
   int fail(int code, const std::string& reason, const std::string& error_code = "");
 
   [[nodiscard]] OperatorSession& session() { return *session_; }

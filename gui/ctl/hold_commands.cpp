@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "gui/ctl/commands.h"
@@ -11,8 +13,39 @@ constexpr double kRefresh_s = 0.04;  // the session streams at 25 Hz by itself; 
 constexpr double kZeros_s = 0.2;     // three zeros at 25 Hz, and a little
 constexpr double kMacroStart_s = 1.5;  // by then a status must have shown it
 
+constexpr double kTeleopSpeed_mps = 1.0, kTeleopYawRate_radps = 0.6;  // robot/app Teleop::Config
+constexpr double kToolSpeed_mps = 0.25, kTurnRate_radps = 0.6;
+
+/// What asks the robot for this very speed: it takes a jog as a share of the speed scale.
+/// @return  Error{Refused} for one that the scale does not allow.
+Result<CommandBody> unscaled(const CommandBody& setpoint, double scale) {
+  if (std::holds_alternative<HoldPump>(setpoint)) return setpoint;
+  if (scale <= 0.0)
+    return makeError(ErrorCode::Refused, "the speed scale is 0: kilnctl speed 0.35");
+  double most = 0.0;  // share of the full speed
+  CommandBody out = setpoint;
+  if (auto* jog = std::get_if<JogBase>(&out)) {
+    Twist2& v = jog->twist;
+    most = std::max({std::abs(v.vx_mps) / kTeleopSpeed_mps, std::abs(v.vy_mps) / kTeleopSpeed_mps,
+                     std::abs(v.wz_radps) / kTeleopYawRate_radps});
+    v = {v.vx_mps / scale, v.vy_mps / scale, v.wz_radps / scale};
+  } else if (auto* arm = std::get_if<JogArm>(&out)) {
+    const bool joints = arm->frame == JogFrame::Joint;
+    most = std::max(
+        arm->velocity.head<3>().cwiseAbs().maxCoeff() / (joints ? kTurnRate_radps : kToolSpeed_mps),
+        arm->velocity.tail<3>().cwiseAbs().maxCoeff() / kTurnRate_radps);
+    arm->velocity /= scale;
+  }
+  if (most <= scale + 1e-6) return out;
+  if (most > 1.0) return makeError(ErrorCode::Refused, "faster than the robot moves by hand");
+  return makeError(ErrorCode::Refused,
+                   "needs a speed scale of {:.2f}, it is {:.2f}: kilnctl speed {:.2f}", most, scale,
+                   std::ceil(most * 100) / 100);
+}
+
 int refused(Console& console, const CommandUpdate& update) {
-  console.print(toJson(update), fmt::format("{}: refused: {}", update.command, update.reason));
+  console.printRefusal(toJson(update),
+                       fmt::format("{}: refused: {}", update.command, update.reason));
   return kRefused;
 }
 
@@ -46,10 +79,12 @@ int stream(Console& console, CommandBody setpoint,
 
 int holdSetpoint(Console& console, const CommandBody& setpoint, double seconds) {
   if (!console.connect()) return kNoLink;
+  const std::string name(commandName(setpoint));
+  const auto asked = unscaled(setpoint, console.status().speed_scale);
+  if (!asked) return console.fail(kRefused, fmt::format("{}: {}", name, asked.error().message));
   if (!console.takeControl()) return kRefused;
   const Stamp start = console.clock().now();
-  const std::string name(commandName(setpoint));
-  const int code = stream(console, setpoint, [&]() -> std::optional<int> {
+  const int code = stream(console, *asked, [&]() -> std::optional<int> {
     const double held_s = toSeconds(console.clock().now() - start);
     if (!signalled() && (seconds <= 0.0 || held_s < seconds)) return std::nullopt;
     console.print({{"outcome", "done"}, {"command", name}, {"held_s", held_s}},

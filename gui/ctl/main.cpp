@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <unistd.h>
 
+#include "common/config/config_archive.h"
 #include "common/core/log.h"
 #include "gui/ctl/commands.h"
 #include "gui/ctl/signals.h"
@@ -30,6 +31,11 @@ struct Request {
 std::string defaultName() {
   const char* user = std::getenv("USER");
   return fmt::format("kilnctl {}", user != nullptr ? user : "operator");
+}
+
+void addThree(CLI::App& app, std::array<double, 3>& values, const std::array<const char*, 3>& names,
+              const std::array<const char*, 3>& units) {
+  for (std::size_t i = 0; i < 3; ++i) app.add_option(names[i], values[i], units[i])->required();
 }
 
 void addSimple(CLI::App& app, Request& request, const char* name, const char* doc,
@@ -67,8 +73,7 @@ void addMission(CLI::App& app, Request& request) {
   });
   addSimple(app, request, "release-protective-stop",
             "release the arm's protective stop, after looking", kiln::ReleaseProtectiveStop{});
-  CLI::App* transition =
-      app.add_subcommand("transition", "force a transition: transition [FROM] TO");
+  CLI::App* transition = app.add_subcommand("transition", "force a transition");
   transition
       ->add_option("FROM_OR_TO", request.from_or_to, "state to enter, or to leave if two are given")
       ->required();
@@ -97,9 +102,8 @@ void addPlaces(CLI::App& app, Request& request) {
         request.options.role = kiln::ClientRole::Viewer;
         request.run = kiln::ctl::showLocalization;
       });
-  CLI::App* pose =
-      app.add_subcommand("pose", "pose X Y YAW_DEG: tell the robot where it stands, in map");
-  pose->add_option("POSE", request.base, "m, m, degrees")->required();
+  CLI::App* pose = app.add_subcommand("pose", "tell the robot where it stands, in map");
+  addThree(*pose, request.base, {"X", "Y", "YAW_DEG"}, {"m", "m", "degrees"});
   pose->callback([&request] {
     request.run = [&request](Console& console) {
       const auto& [x, y, yaw_deg] = request.base;
@@ -175,14 +179,16 @@ void addHolds(CLI::App& app, Request& request) {
   };
   CLI::App* jog = app.add_subcommand("jog", "move by hand while this runs (mode teleop)");
   jog->require_subcommand(1);
-  CLI::App* base = jog->add_subcommand("base", "jog base VX VY WZ: m/s, m/s, rad/s in base");
-  base->add_option("VELOCITY", request.base)->required();
+  CLI::App* base = jog->add_subcommand("base", "drive at this speed, in base");
+  addThree(*base, request.base, {"VX", "VY", "WZ"}, {"m/s", "m/s", "rad/s"});
   base->add_option("--seconds", request.seconds, "release after this; 0: a signal releases");
   base->callback([&request, hold] {
     hold(kiln::JogBase{{request.base[0], request.base[1], request.base[2]}});
   });
-  CLI::App* arm = jog->add_subcommand("arm", "jog arm V1 .. V6: rad/s per joint, or m/s and rad/s");
-  arm->add_option("VELOCITY", request.arm)->required()->expected(6);
+  CLI::App* arm = jog->add_subcommand("arm", "move the arm at these six speeds");
+  arm->add_option("V1 .. V6", request.arm, "rad/s of each joint; else three m/s and three rad/s")
+      ->required()
+      ->expected(6);
   arm->add_option("--frame", request.frame)->check(CLI::IsMember({"joint", "tool", "base"}));
   arm->add_option("--seconds", request.seconds, "release after this; 0: a signal releases");
   arm->callback([&request, hold] {
@@ -226,6 +232,36 @@ void addMacros(CLI::App& app, Request& request) {
   addSimple(*macro, request, "cancel", "end the running macro", kiln::CancelMacro{});
 }
 
+/// "there is no command 'stat'; did you mean 'state'?" where CLI11 says that one is missing.
+int explain(const CLI::App& app, const CLI::ParseError& error) {
+  const CLI::App* at = &app;
+  while (!at->get_subcommands().empty()) at = at->get_subcommands().front();
+  const std::vector<std::string> unknown = app.remaining(true);
+  std::vector<std::string> known;
+  for (const CLI::App* command : at->get_subcommands({})) known.push_back(command->get_name());
+  if (known.empty() || unknown.empty() || unknown.front().front() == '-')
+    return app.exit(error) == 0 ? 0 : 2;
+  const std::string near = kiln::nearestName(unknown.front(), known);
+  std::fprintf(
+      stderr, "kilnctl: there is no command '%s'; %s\n", unknown.front().c_str(),
+      near.empty() ? "kilnctl --help lists all" : fmt::format("did you mean '{}'?", near).c_str());
+  return 2;
+}
+
+std::string checkEndpoint(const std::string& endpoint) {
+  const bool known = endpoint.rfind("tcp://", 0) == 0 || endpoint.rfind("ipc://", 0) == 0;
+  return known ? "" : fmt::format("'{}' is no tcp://HOST:PORT or ipc:///dir/prefix", endpoint);
+}
+
+constexpr double kLongestWait_s = 3600.0;
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  kilnctl state --json\n"
+    "  kilnctl mode teleop && kilnctl jog base 0.2 0 0 --seconds 2\n"
+    "  kilnctl transition ArmSearch\n"
+    "  kilnctl macro run \"arm park\" --take-over\n"
+    "  kilnctl stop";
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -238,6 +274,7 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", std::string("kilnctl ") + KILN_VERSION);
   app.add_option("--connect", request.options.endpoint, "tcp://127.0.0.1:PORT or ipc:///dir/prefix")
       ->envname("KILN_CONNECT")
+      ->check(checkEndpoint)
       ->capture_default_str();
   app.add_option("--name", request.options.name, "operator name shown to others")
       ->capture_default_str();
@@ -245,7 +282,10 @@ int main(int argc, char** argv) {
   app.add_flag("--take-over", request.options.take_over,
                "ask the holder for control when it is taken");
   app.add_option("--timeout", request.options.connect_s, "seconds to wait for the robot")
+      ->check(CLI::Range(0.1, kLongestWait_s))
       ->capture_default_str();
+  app.fallthrough();  // before or behind the command
+  app.footer(kExamples);
   app.require_subcommand(1);
   addViews(app, request);
   addMission(app, request);
@@ -256,7 +296,7 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
+    return explain(app, error);
   }
   kiln::ctl::catchSignals();
   Console console(request.options);

@@ -102,6 +102,8 @@ expect_status 1 $? "an unknown command"
 contains "$work/output" "no command 'nonsense'" "an unknown command is named"
 "$kiln" help >"$work/output"
 expect_status 0 $? "help"
+"$kiln" demo --help >"$work/output"
+expect_status 0 $? "demo --help"
 
 [ "$failures" -eq 0 ] && echo "launcher: all good"
 exit "$failures"

@@ -8,6 +8,7 @@ namespace kiln::gui {
 
 namespace {
 constexpr double kRadius_px = 4.0;
+constexpr int kLeastStretch_pct = 75;
 /// A state with this many ways in or out (a fault that everything leads to) would cover the graph
 /// with lines: they show once taken, from the current state and under the pointer.
 constexpr int kHubEdges = 5;
@@ -46,6 +47,15 @@ QStringList breakLabel(const QString& label, const QFont& font, double width_px)
     best = halves;
   }
   return best;
+}
+
+QFont narrowed(QFont font, const QStringList& lines, double width_px) {
+  double widest_px = 0.0;
+  for (const QString& line : lines)
+    widest_px = std::max(widest_px, QFontMetricsF(font).horizontalAdvance(line));
+  if (widest_px > width_px)
+    font.setStretch(std::max(kLeastStretch_pct, static_cast<int>(100.0 * width_px / widest_px)));
+  return font;
 }
 
 void GraphPainter::paint() {
@@ -195,7 +205,9 @@ void GraphPainter::node(const GraphLayout::Node& node, const QRectF& box) {
   painter_.setPen(on_active ? p.active_text : p.text);
   const QRectF text = box.adjusted(2, 1, -2, -2);
   QStringList lines = breakLabel(fsm.label(node.name), label, text.width());
-  const QFontMetricsF metrics(label);
+  const QFont fitting = narrowed(label, lines, text.width());
+  const QFontMetricsF metrics(fitting);
+  painter_.setFont(fitting);
   // With a label of two lines the time goes behind the second, as far as there is room.
   if (lines.size() > 1 && !below.isEmpty()) {
     const QString joined =

@@ -13,6 +13,8 @@ namespace kiln::gui {
 /// A label on one line if it fits, else broken at a space so that the longer half is as short as
 /// can be.
 [[nodiscard]] QStringList breakLabel(const QString& label, const QFont& font, double width_px);
+/// Letters narrower by as much as the widest line needs, a quarter at most; never lower ones.
+[[nodiscard]] QFont narrowed(QFont font, const QStringList& lines, double width_px);
 
 /// Draws one frame of the graph in the layout's own pixels. Holds references for the length of one
 /// paint.

@@ -12,8 +12,7 @@ class ForcedJumpTest : public testing::Test {
   ForcedJumpTest() {
     station.pass(2.0);
     station.takeLease();
-    station.link.robot().startMission();
-    station.pass(1.0);
+    station.startMission();
     EXPECT_EQ(station.models.fsm.current(), "EnterBuilding");
   }
   /// Every ChangeState that left the station.
@@ -30,25 +29,25 @@ class ForcedJumpTest : public testing::Test {
 
 TEST_F(ForcedJumpTest, CarriesTheStateAndStepThatTheOperatorSaw) {
   ASSERT_TRUE(jump.arm());
-  ASSERT_TRUE(jump.pick("ArmSearch"));
+  ASSERT_TRUE(jump.pick("SafeStop"));
   EXPECT_TRUE(jumps().empty()) << "nothing may be sent before the hold";
   const std::uint64_t step = station.models.fsm.status()->step;
   jump.confirm();
   ASSERT_EQ(jumps().size(), 1U);
   EXPECT_EQ(jumps()[0].from, "EnterBuilding");
-  EXPECT_EQ(jumps()[0].to, "ArmSearch");
+  EXPECT_EQ(jumps()[0].to, "SafeStop");
   EXPECT_EQ(jumps()[0].step, step);
   EXPECT_EQ(jump.phase(), ForcedJump::Phase::Sent);
   station.settle();
   EXPECT_EQ(jump.phase(), ForcedJump::Phase::Answered);
   EXPECT_FALSE(jump.failed());
-  EXPECT_EQ(station.models.fsm.current(), "ArmSearch");
+  EXPECT_EQ(station.models.fsm.current(), "SafeStop");
 }
 
 TEST_F(ForcedJumpTest, RefusesAStateThatNeedsArgumentsWithItsReason) {
   ASSERT_TRUE(jump.arm());
-  EXPECT_FALSE(jump.pick("AimHose"));
-  EXPECT_TRUE(jump.message().contains("estimate")) << jump.message().toStdString();
+  EXPECT_FALSE(jump.pick("DriveBlocked"));
+  EXPECT_TRUE(jump.message().contains("needs data")) << jump.message().toStdString();
   EXPECT_EQ(jump.phase(), ForcedJump::Phase::Armed);
 }
 
@@ -73,10 +72,10 @@ TEST_F(ForcedJumpTest, CancelsWhenTheRobotMovesOnUnderThePick) {
 }
 
 TEST_F(ForcedJumpTest, ShowsTheRobotsRefusalWhenItHasMovedUnseen) {
-  ASSERT_TRUE(jump.pick("ArmSearch"));
+  ASSERT_TRUE(jump.pick("SafeStop"));
   // The robot leaves the state without the station having heard of it yet.
-  station.link.robot().handle(
-      "fake-station", "you",
+  station.link.robot().send(
+      DirectLink::kClient, "Ann",
       ChangeState{"EnterBuilding", station.models.fsm.status()->step, "SafeStop"});
   jump.confirm();
   station.settle();
@@ -94,7 +93,7 @@ TEST_F(ForcedJumpTest, NeedsTheLease) {
 }
 
 TEST_F(ForcedJumpTest, EscapeCancels) {
-  ASSERT_TRUE(jump.pick("ArmSearch"));
+  ASSERT_TRUE(jump.pick("SafeStop"));
   jump.cancel();
   EXPECT_EQ(jump.phase(), ForcedJump::Phase::Idle);
   jump.confirm();

@@ -9,24 +9,24 @@ namespace {
 
 TEST(FsmModel, KeepsVisitsTimesAndEdgesOfTheWholeMission) {
   SteppedStation station;
-  station.link.robot().startMission();
-  station.pass(200.0);
+  station.startMission();
   const FsmModel& fsm = station.models.fsm;
-  EXPECT_EQ(fsm.current(), "MissionDone");
+  for (int i = 0; i < 60 && !fsm.status()->terminal; ++i) station.pass(10.0);
+  EXPECT_EQ(fsm.current(), "Finished");
   EXPECT_EQ(fsm.record("DriveToLocation").visits, 2);
   EXPECT_EQ(fsm.record("NextLocation").visits, 3);
   EXPECT_EQ(fsm.timesTaken("NextLocation", "DriveToLocation"), 2);
   EXPECT_EQ(fsm.timesTaken("AimHose", "LostTarget"), 0);
   EXPECT_GT(fsm.record("SpraySteady").last_s, 14.0);
-  EXPECT_EQ(fsm.recency("MissionDone"), 0);
-  EXPECT_EQ(fsm.recency("NextLocation"), 1);
-  EXPECT_EQ(fsm.recency("StopPump"), 2);
+  EXPECT_EQ(fsm.recency("Finished"), 0);
+  EXPECT_EQ(fsm.recency("ParkArm"), 1);
+  EXPECT_EQ(fsm.recency("NextLocation"), 2);
   EXPECT_EQ(fsm.recency("EnterBuilding"), -1);
 }
 
 TEST(FsmModel, TheClockOfAStateStandsWhileTheLinkIsSilent) {
   SteppedStation station;
-  station.link.robot().startMission();
+  station.startMission();
   station.pass(4.0);
   const double before = station.models.fsm.timeInStateS();
   station.link.setSilent(true);
@@ -37,7 +37,7 @@ TEST(FsmModel, TheClockOfAStateStandsWhileTheLinkIsSilent) {
 TEST(FsmModel, TheClockOfAStateStandsWhileTheMissionIsPaused) {
   SteppedStation station;
   station.takeLease();
-  station.link.robot().startMission();
+  station.startMission();
   station.pass(4.0);
   station.models.commands.send(Pause{}, "pause");
   station.pass(1.0);
@@ -53,13 +53,13 @@ TEST(FsmModel, TheClockOfAStateStandsWhileTheMissionIsPaused) {
 TEST(FsmModel, MarksForcedTransitions) {
   SteppedStation station;
   station.takeLease();
-  station.link.robot().startMission();
+  station.startMission();
   station.pass(1.0);
   const auto step = station.models.fsm.status()->step;
   station.models.commands.send(ChangeState{"EnterBuilding", step, "SafeStop"}, "jump");
   station.settle();
   EXPECT_EQ(station.models.fsm.visits().back().cause, TransitionCause::Operator);
-  EXPECT_EQ(station.models.fsm.visits().back().note, "you");
+  EXPECT_EQ(station.models.fsm.visits().back().note, "by Ann");
 }
 
 }  // namespace

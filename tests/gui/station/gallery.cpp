@@ -8,11 +8,11 @@
 
 #include "common/config/resources.h"
 #include "gui/app/main_window.h"
-#include "gui/link/fake_link.h"
 #include "gui/link/replay_link.h"
 #include "gui/panels/fire/place_panel.h"
 #include "gui/views/scene3d/scene_renderer.h"
 #include "gui/views/scene3d/scene_tile.h"
+#include "tests/gui/support/direct_link.h"
 
 using namespace kiln;
 using namespace kiln::gui;
@@ -67,7 +67,7 @@ struct Desk {
     QCoreApplication::processEvents();
   }
   Wanted wanted;
-  FakeLink link{{1, 1.0, false, true, false}};
+  DirectLink link{true};
   StationModels models{link};
   Theme theme{wanted.kind};
   MainWindow window{
@@ -98,10 +98,12 @@ void showStates(Desk& desk, const Wanted& wanted) {
   shot(desk.window, wanted, "10-stop-kept");
 }
 
-void showFake(const Wanted& wanted) {
+void showRobot(const Wanted& wanted) {
   Desk desk(wanted);
-  desk.link.robot().setChecksFail(true);
-  desk.link.robot().setHealth(LocalizationHealth::Lost);
+  TestRobot& robot = desk.link.robot();
+  const std::vector<Check> fine = robot.checks;
+  robot.checks[1] = {"LiDAR", false, "no scan for 2.1 s", "Check the LiDAR's cable and power."};
+  robot.health = LocalizationHealth::Lost;
   desk.pass(0.5);
   shot(desk.window, wanted, "1-not-ready-lost");
   PosePlacer& placer = desk.window.sceneTile()->posePlacer();
@@ -111,16 +113,17 @@ void showFake(const Wanted& wanted) {
   desk.pass(0.2);
   shot(desk.window, wanted, "2-set-pose");
   placer.cancel();
-  desk.link.robot().setChecksFail(false);
-  desk.link.robot().setHealth(LocalizationHealth::Good);
+  robot.checks = fine;
+  robot.health = LocalizationHealth::Good;
+  robot.misplaced = {0.16, 0.09, 0.05};
   desk.models.commands.send(SetRecording{true}, "start recording");
-  desk.link.robot().startMission();
+  robot.startMission();
   desk.pass(30.0);
   shot(desk.window, wanted, "3-driving");
   desk.models.commands.send(ResetRobot{}, "reset");
   desk.pass(32.0);
   desk.window.sceneTile()->canvas().setCameraMode(OrbitCamera::Mode::Top);
-  desk.link.robot().setHealth(LocalizationHealth::Degraded);
+  robot.health = LocalizationHealth::Degraded;
   desk.pass(3.0);
   shot(desk.window, wanted, "4-after-reset-misplaced");
   for (SceneCard* card : desk.window.sceneTile()->cards())
@@ -179,6 +182,6 @@ int main(int argc, char** argv) {
   }
   QDir().mkpath(wanted.folder);
   if (!wanted.recording.isEmpty()) return showReplay(wanted);
-  showFake(wanted);
+  showRobot(wanted);
   return 0;
 }

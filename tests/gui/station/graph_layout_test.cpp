@@ -5,16 +5,21 @@
 
 #include <gtest/gtest.h>
 
-#include "gui/link/fake_robot.h"
 #include "gui/views/fsm_graph/graph_geometry.h"
 #include "gui/views/fsm_graph/graph_painter.h"
 #include "gui/widgets/theme.h"
+#include "tests/support/test_robot.h"
 
 namespace kiln::gui {
 namespace {
 
+const FsmInfo& fireGraph() {
+  static const FsmInfo info = TestRobot().fsmInfo();
+  return info;
+}
+
 TEST(GraphLayout, GivesEveryStateACellOfItsOwn) {
-  const FsmInfo info = makeFakeFireGraph();
+  const FsmInfo info = fireGraph();
   const GraphLayout layout = layoutGraph(info);
   ASSERT_EQ(layout.nodes.size(), info.states.size());
   std::set<std::pair<int, int>> cells;
@@ -24,12 +29,11 @@ TEST(GraphLayout, GivesEveryStateACellOfItsOwn) {
 }
 
 TEST(GraphLayout, ReadsDownwardsAlongTheUsualWay) {
-  const GraphLayout layout = layoutGraph(makeFakeFireGraph());
+  const GraphLayout layout = layoutGraph(fireGraph());
   const auto row = [&](const char* name) {
     return layout.nodes[static_cast<std::size_t>(layout.index.value(QString::fromLatin1(name)))]
         .row;
   };
-  EXPECT_LT(row("WaitForStart"), row("EnterBuilding"));
   EXPECT_LT(row("EnterBuilding"), row("DriveToLocation"));
   EXPECT_LT(row("DriveToLocation"), row("ArmSearch"));
   EXPECT_LT(row("AimHose"), row("StartPump"));
@@ -52,13 +56,13 @@ TEST(GraphLayout, SplitsALongLane) {
 
 TEST(GraphLayout, ToleratesAnEmptyGraphAndEdgesToNowhere) {
   EXPECT_TRUE(layoutGraph(FsmInfo{}).nodes.empty());
-  FsmInfo info = makeFakeFireGraph();
-  info.edges.push_back({"WaitForStart", "NoSuchState", false, ""});
+  FsmInfo info = fireGraph();
+  info.edges.push_back({"EnterBuilding", "NoSuchState", false, ""});
   EXPECT_EQ(layoutGraph(info).nodes.size(), info.states.size());
 }
 
 TEST(GraphGeometry, LabelsFitTheirBoxesAtNinePointsInANarrowTile) {
-  const FsmInfo info = makeFakeFireGraph();
+  const FsmInfo info = fireGraph();
   const GraphLayout layout = layoutGraph(info);
   const GraphGeometry geometry(layout, QSizeF(336, 300));
   const Theme theme;
@@ -68,10 +72,10 @@ TEST(GraphGeometry, LabelsFitTheirBoxesAtNinePointsInANarrowTile) {
   for (std::size_t i = 0; i < info.states.size(); ++i) {
     const int at = layout.index.value(QString::fromStdString(info.states[i].name));
     const double width = geometry.nodes()[static_cast<std::size_t>(at)].width() - 4;
-    for (const QString& line :
-         breakLabel(QString::fromStdString(info.states[i].label), font, width)) {
-      EXPECT_LE(QFontMetricsF(font).horizontalAdvance(line), width) << info.states[i].label;
-    }
+    const QStringList lines = breakLabel(QString::fromStdString(info.states[i].label), font, width);
+    const QFontMetricsF metrics(narrowed(font, lines, width));
+    for (const QString& line : lines)
+      EXPECT_LE(metrics.horizontalAdvance(line), width) << info.states[i].label;
   }
   for (std::size_t i = 0; i < geometry.nodes().size(); ++i) {
     for (std::size_t j = i + 1; j < geometry.nodes().size(); ++j) {

@@ -52,7 +52,7 @@ TEST(PosePlacer, SaysWhyItCannotBeSet) {
   EXPECT_TRUE(why.contains("lease")) << why.toStdString();
   station.takeLease();
   EXPECT_TRUE(placer.mayStart());
-  station.link.robot().startMission();
+  station.startMission();
   station.pass(0.5);
   EXPECT_FALSE(placer.mayStart(&why));
   EXPECT_TRUE(why.contains("pause")) << why.toStdString();
@@ -66,6 +66,7 @@ TEST(PosePlacer, ARefusalOfTheRobotIsShownAndNothingMoves) {
   placer.start();
   placer.press(1.0, 2.0);
   station.link.robot().startMission();  // the station has not heard of it yet
+  station.link.robot().advance(0.02);
   placer.confirm();
   station.settle();
   EXPECT_EQ(placer.phase(), Phase::Refused);
@@ -176,7 +177,7 @@ TEST(LocalizationModel, SaysHealthAndFiguresAndGrowsOld) {
   SteppedStation station;
   station.pass(1.0);
   EXPECT_EQ(station.models.localization.summary(), QString::fromUtf8("good ±9 mm ±0.2°"));
-  station.link.robot().setHealth(LocalizationHealth::Lost);
+  station.link.robot().health = LocalizationHealth::Lost;
   station.pass(0.3);
   EXPECT_EQ(station.models.localization.summary(), "lost");
   EXPECT_TRUE(station.models.localization.details().contains("set the pose"));

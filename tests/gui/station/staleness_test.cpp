@@ -56,7 +56,7 @@ TEST(Staleness, ADeafRobotIsTold) {
   SteppedStation station;
   station.pass(2.0);
   station.link.setDeaf(true);
-  station.pass(1.0);
+  station.pass(2.0);
   ASSERT_NE(station.models.alarms.top(), nullptr);
   EXPECT_EQ(station.models.alarms.top()->alarm.id, "station.not_heard");
 }

@@ -2,22 +2,25 @@
 
 #include <QCoreApplication>
 
-#include "gui/link/fake_link.h"
 #include "gui/models/station_models.h"
+#include "tests/gui/support/direct_link.h"
 
 namespace kiln::gui {
 
-/// A station on a fake robot whose time moves only when told; no sensors, no timers needed.
+/// A station on a robot whose time moves only when told; no timers needed.
 class SteppedStation {
  public:
-  SteppedStation() { link.open(); }
-  /// Lets robot and station time pass, then everything queued arrive and the models speak.
+  explicit SteppedStation(bool sensors = false) : link(sensors) { link.open(); }
+  /// Lets robot and station time pass, then the models speak.
   void pass(double seconds) {
     link.advance(seconds);
-    settle();
+    QCoreApplication::sendPostedEvents();
+    models.flush();
     emit models.aged();
   }
+  /// Until what was sent is answered.
   void settle() {
+    link.advance(0.02);
     QCoreApplication::sendPostedEvents();
     models.flush();
   }
@@ -25,7 +28,11 @@ class SteppedStation {
     models.lease.request();
     settle();
   }
-  FakeLink link{{1, 1.0, false, false, false}};
+  void startMission() {
+    link.robot().startMission();
+    pass(0.2);
+  }
+  DirectLink link;
   StationModels models{link};
 };
 

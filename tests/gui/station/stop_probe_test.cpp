@@ -44,7 +44,7 @@ class StopProbeTest : public testing::Test {
   std::string failure;
 };
 
-// The fake robot answers within the press, as a quick robot does before the window has looked.
+// The robot answers within the press, as a quick robot does before the window has looked.
 TEST_F(StopProbeTest, TimesEveryPressThoughTheAnswerIsAtOnce) {
   run(20.0);
   EXPECT_TRUE(finished) << failure;

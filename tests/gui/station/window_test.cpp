@@ -4,11 +4,11 @@
 #include <gtest/gtest.h>
 
 #include "gui/app/main_window.h"
-#include "gui/link/fake_link.h"
 #include "gui/views/alarm_strip/alarm_strip.h"
 #include "gui/views/fsm_graph/fsm_tile.h"
 #include "gui/views/state_card/state_card.h"
 #include "gui/views/top_bar/top_bar.h"
+#include "tests/gui/support/direct_link.h"
 
 namespace kiln::gui {
 namespace {
@@ -29,7 +29,7 @@ class WindowTest : public testing::TestWithParam<QSize> {
     models.flush();
     emit models.aged();
   }
-  FakeLink link{{1, 1.0, false, true, false}};
+  DirectLink link{true};
   StationModels models{link};
   Theme theme;
   MainWindow window{{theme, link.clock()}, models, {RobotGeometry{}, false}};
