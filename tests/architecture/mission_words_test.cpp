@@ -38,13 +38,14 @@ TEST_F(MissionWords, AreFoundInAnyFormOfAnIdentifier) {
        {"struct FirePlace;", "int fire_places;", "auto n = fireFurniture();", "double kFire = 1;",
         "bool spraying_;", "if (HEAT_MAP) f();", "double litres;", "x.jet.points = 1;",
         "#include \"robot/missions/fire/make_fire.h\""}) {
-    EXPECT_THAT(missionWords(table_, "robot/skills/x.cpp", code), ElementsAre(HasSubstr("x.cpp:1")))
+    EXPECT_THAT(missionWords(table_, "robot/planning/x.cpp", code),
+                ElementsAre(HasSubstr("x.cpp:1")))
         << code;
   }
 }
 
 TEST_F(MissionWords, AreFreeInTextsCommentsAndOtherRooms) {
-  EXPECT_THAT(missionWords(table_, "robot/skills/x.cpp",
+  EXPECT_THAT(missionWords(table_, "robot/planning/x.cpp",
                            "log(\"fire \\\" out\");  // the fire\nint template_, misfire, watering;"
                            "int firewall;"),
               ElementsAre(HasSubstr("'watering'")));
