@@ -10,6 +10,7 @@
 #include "common/core/log.h"
 #include "common/robot_model/robot_calibration.h"
 #include "robot/app/robot_impl.h"
+#include "robot/app/safety_files.h"
 #include "robot/skills/arena_fence.h"
 
 namespace kiln {
@@ -158,11 +159,13 @@ Result<void> Robot::Impl::resume() {
 }
 
 void Robot::Impl::controlTick(Stamp now) {
+  const auto wheels = devices.base.state();
   base.tick(now);
   arm.tick(now);
   pumps.tick(now);
   const auto arm_state = devices.arm.state();
-  if (arm_state) history.add({arm_state->stamp, arm_state->q, base.tracking().X_odom_base});
+  if (arm_state) history.addJoints(arm_state->stamp, arm_state->q);
+  if (wheels) history.addOdometry(wheels->stamp, base.tracking().X_odom_base);
 }
 
 void Robot::Impl::missionTick(Stamp now) {
@@ -328,19 +331,18 @@ Result<std::unique_ptr<Robot>> Robot::create(const RobotSettings& settings,
                                              const RobotOptions& options, Devices devices,
                                              const Clock& clock, Executor& executor,
                                              OperatorLink* link, StopLatch& stop) {
-  auto robot = loadResource<RobotGeometry>(settings.geometry);
+  auto robot = loadGeometry(settings.geometry);
   if (!robot) return tl::make_unexpected(robot.error());
   if (auto calibrated = calibratedGeometry(*robot, options); calibrated) {
     robot = std::move(calibrated);
   } else {
     return tl::make_unexpected(calibrated.error());
   }
-  auto arena = loadResource<ArenaMap>(settings.arena);
+  auto arena = loadArena(settings.arena);
   if (!arena) return tl::make_unexpected(arena.error());
   if (settings.flat_ground) arena->approach = {};
-  auto spray = loadResource<SprayCalibration>(settings.spray_calibration);
+  auto spray = loadSprayCalibration(settings.spray_calibration);
   if (!spray) return tl::make_unexpected(spray.error());
-  if (auto valid = spray->validate(); !valid) return tl::make_unexpected(valid.error());
   auto folder = resourcePath("macros");
   if (!folder) return tl::make_unexpected(folder.error());
   auto macros = loadMacros(*folder);
@@ -352,7 +354,8 @@ Result<std::unique_ptr<Robot>> Robot::create(const RobotSettings& settings,
   auto impl = std::make_unique<Impl>(settings, options, std::move(devices), clock, executor, link,
                                      stop, std::move(*robot), std::move(*arena), *spray,
                                      std::move(*macros), std::move(*location));
-  impl->base.setGeofence(std::make_shared<const Geofence>(std::move(*fence)));
+  impl->fence = std::make_shared<const Geofence>(std::move(*fence));
+  impl->base.setGeofence(impl->fence);
   if (auto made = impl->makeMission(executor); !made) return tl::make_unexpected(made.error());
   // Before anything runs: a checkpoint that is refused leaves nothing behind.
   if (options.resume) {

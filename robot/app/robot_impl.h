@@ -78,6 +78,7 @@ struct Robot::Impl {
   StopLatch& stop;
   RobotGeometry robot;
   ArenaMap arena;
+  std::shared_ptr<const Geofence> fence;
 
   BaseController base;
   ArmController arm;

@@ -91,6 +91,7 @@ PreflightInputs Robot::Impl::preflightInputs(Stamp now) const {
   if (arm_state) in.arm_safety = arm_state->safety;
   if (base_state) in.battery_v = base_state->battery_v;
   in.pose_health = tracked.health;
+  if (fence) in.fence_room_m = fence->room(pose());
   in.storage_ok = !host->storageProblem();
   in.missing_edges = missingTransforms(now);
   in.tree_edges = fullTreeSize();

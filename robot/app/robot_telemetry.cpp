@@ -1,18 +1,11 @@
 // What the robot tells of itself: status, scene, alarms.
 #include <algorithm>
-#include <cmath>
 
 #include "common/geom/frames.h"
 #include "robot/app/robot_impl.h"
+#include "robot/app/standstill.h"
 
 namespace kiln {
-namespace {
-
-constexpr double kRest_radps = 0.02;  ///< joints and wheels below this stand still
-constexpr double kPumpRest_a = 0.3;
-constexpr double kProofAge_s = 0.1;  ///< older states prove no standstill
-
-}  // namespace
 
 void Robot::Impl::raiseAlarms(Stamp now) {
   const FsmStatus& fsm = host->fsm();
@@ -65,26 +58,13 @@ void Robot::Impl::raiseMissionAlarms(Stamp now) {
   mission_alarms = std::move(raised);
 }
 
-/// At rest by what was measured just now: what is old or no number proves nothing.
 StopStatus Robot::Impl::stopStatus(Stamp now) const {
   StopStatus s;
   s.latched = stop.latched();
   s.source = stop.source();
   s.since = stop.since();
   s.generation = stop.generation();
-  const auto young = [&](const auto& state) {
-    return state && toSeconds(now - state->stamp) <= kProofAge_s;
-  };
-  if (const auto arm_state = devices.arm.state(); young(arm_state))
-    s.arm_at_rest = (arm_state->qd.array().abs() <= kRest_radps).all();
-  if (const auto base_state = devices.base.state(); young(base_state))
-    s.base_at_rest =
-        std::all_of(base_state->wheels.begin(), base_state->wheels.end(),
-                    [](const WheelState& w) { return std::abs(w.drive_radps) <= kRest_radps * 5; });
-  if (const auto pump_state = devices.pumps.state(); young(pump_state))
-    s.pumps_at_rest = std::all_of(pump_state->current_a.begin(), pump_state->current_a.end(),
-                                  [](double a) { return a < kPumpRest_a; });
-  s.standstill_proven = s.latched && s.arm_at_rest && s.base_at_rest && s.pumps_at_rest;
+  proveStandstill(s, devices.arm.state(), devices.base.state(), devices.pumps.state(), now);
   return s;
 }
 
