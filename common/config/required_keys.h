@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "common/config/resources.h"
 #include "common/core/error.h"
 
 namespace kiln {
@@ -11,5 +12,18 @@ namespace kiln {
 /// believed. Error: InvalidInput, names file and key; or what readRegularFile() says.
 [[nodiscard]] Result<void> requireKeys(const std::string& path,
                                        const std::vector<std::string>& keys);
+
+/// loadResource(), and requireKeys().
+template <class T>
+[[nodiscard]] Result<T> loadComplete(const std::string& resource,
+                                     const std::vector<std::string>& keys) {
+  const auto path = resourcePath(resource);
+  if (!path) return tl::make_unexpected(path.error());
+  auto loaded = loadResource<T>(resource);
+  if (!loaded) return loaded;
+  if (auto complete = requireKeys(*path, keys); !complete)
+    return tl::make_unexpected(complete.error());
+  return loaded;
+}
 
 }  // namespace kiln

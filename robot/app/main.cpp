@@ -1,10 +1,10 @@
 #include <cstdio>
 #include <filesystem>
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "common/config/command_line.h"
 #include "common/config/resources.h"
 #include "common/core/atomic_file.h"
 #include "common/core/check.h"
@@ -14,6 +14,7 @@
 #include "robot/app/run_loop.h"
 #include "robot/app/runtime.h"
 #include "robot/fsm/uuid.h"
+#include "robot/missions/common/mission_checkpoint.h"
 
 namespace {
 
@@ -73,7 +74,7 @@ void addOptions(CLI::App& app, Arguments& a) {
                "end when the mission has ended; exit status 0 on success");
   app.add_option("--until-s", a.until_s,
                  "end after so many seconds of robot time, mission over or not (default: never)")
-      ->check(CLI::Range(0.1, 1e6));
+      ->check(within(0.1, 1e6));
   app.add_option(
       "--report", a.report,
       "write the mission report (JSON) at the end; wall times and slips of the loops go to "
@@ -84,7 +85,7 @@ void addOptions(CLI::App& app, Arguments& a) {
   app.add_option("--replay", a.sources.replay,
                  "run perception again on a recorded run (.mcap), then end");
   app.add_option("--replay-speed", a.replay_speed, "0.1 to 10; 0: as fast as possible")
-      ->check(CLI::Range(0.0, 10.0));
+      ->check(within(0.0, 10.0));
   app.add_option("--state-dir", a.robot.state_dir,
                  "checkpoint, pose and lock; default: $XDG_STATE_HOME/kiln or ~/.local/state/kiln");
   app.add_option("--listen", a.listen,
@@ -139,9 +140,21 @@ Result<void> writeReports(const Arguments& a, const Robot& robot, const Executor
   return writeFileAtomically(a.report + ".timing", timing.dump() + "\n");
 }
 
+/// The id under which hello, recording and mission are found: after a restart that of the mission
+/// that goes on. A lockstep run must give the same report each time, so it is named by its world.
+Result<std::string> missionUuid(const RobotOptions& options, const Runtime& runtime) {
+  if (options.resume) {
+    const auto saved = loadCheckpoint(options.state_dir + "/" + options.mission + ".checkpoint");
+    if (!saved) return tl::make_unexpected(saved.error());
+    return saved->fsm.mission_uuid;
+  }
+  if (runtime.sim && options.lockstep) return fmt::format("lockstep-{}", runtime.sim->world().seed);
+  return randomUuid();
+}
+
 Result<std::unique_ptr<OperatorLink>> openLink(const Arguments& a, const RobotSettings& settings,
                                                const Clock& clock, StopLatch& stop) {
-  OperatorLink::Config config;
+  OperatorLink::Config config = settings.link;
   config.endpoint = a.listen;
   config.robot_name = settings.name;
   return OperatorLink::open(config, {KILN_VERSION, a.robot.environment, a.robot.mission_uuid},
@@ -230,10 +243,9 @@ int run(Arguments a) {
   a.robot.environment = runtime.sim ? Environment::Sim : Environment::Replay;
   StopLatch stop;
   const CheckFailureGuard guard(stop, runtime.clock());
-  // A lockstep run must give the same report each time, so its mission is named by its world.
-  a.robot.mission_uuid = runtime.sim && a.robot.lockstep
-                             ? fmt::format("lockstep-{}", runtime.sim->world().seed)
-                             : randomUuid();
+  auto uuid = missionUuid(a.robot, runtime);
+  if (!uuid) return fail(uuid.error());
+  a.robot.mission_uuid = *uuid;
   auto link = openLink(a, *settings, runtime.clock(), stop);
   if (!link) return fail(link.error());
   const auto recorder = makeRecorder(a, *settings, runtime.clock(), **link);
@@ -279,7 +291,7 @@ int main(int argc, char** argv) {
   CLI::App app{"kiln-robotd: autonomy, control and safety of one robot"};
   app.set_version_flag("--version", std::string("kiln-robotd ") + KILN_VERSION);
   addOptions(app, arguments);
-  CLI11_PARSE(app, argc, argv);
+  if (const auto status = parseCommandLine(app, argc, argv)) return *status;
   arguments.record = app.count("--record") > 0;
   setLogLevel(arguments.log_level);
   installSignalHandlers();

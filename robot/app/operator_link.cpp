@@ -23,8 +23,6 @@
 namespace kiln {
 
 void OperatorLink::Config::visit(ConfigArchive& a) {
-  a.field("endpoint", endpoint, "tcp://127.0.0.1:PORT (four ports in a row) or ipc:///dir/prefix");
-  a.field("robot_name", robot_name, "shown at the station");
   a.field("forget_after_s", forget_after_s, "s", 2.0, 600.0,
           "a silent client is dropped from the list");
   a.field("command_queue", command_queue, "", 16, 4096,

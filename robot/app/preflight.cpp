@@ -164,6 +164,15 @@ Check mapCheck(const PreflightInputs& in, const PreflightLimits& limits) {
   return ok(name, found);
 }
 
+Check fenceCheck(const PreflightInputs& in) {
+  if (!in.fence_room_m)
+    return fail("Geofence", "none", "give the arena's file its geofence, then restart");
+  if (!(*in.fence_room_m >= 0.0))
+    return fail("Geofence", fmt::format("the robot reaches {:.2f} m over it", -*in.fence_room_m),
+                "drive it back in by hand, or set its pose on the map");
+  return ok("Geofence", fmt::format("{:.1f} m of room", *in.fence_room_m));
+}
+
 Check batteryCheck(const PreflightInputs& in, const PreflightLimits& limits) {
   const std::string found = fmt::format("{:.1f} V", in.battery_v);
   if (in.battery_v >= limits.battery_min_v) return ok("Battery", found);
@@ -218,8 +227,8 @@ std::vector<Check> preflight(const PreflightInputs& in, const PreflightLimits& l
   }
   for (Check& row : std::vector<Check>{
            lidarCheck(in, limits), perceptionCheck(in, limits), transformsCheck(in),
-           clocksCheck(in, limits), limitsCheck(in), positionCheck(in), mapCheck(in, limits),
-           batteryCheck(in, limits), diskCheck(in, limits), storageCheck(in)})
+           clocksCheck(in, limits), limitsCheck(in), positionCheck(in), fenceCheck(in),
+           mapCheck(in, limits), batteryCheck(in, limits), diskCheck(in, limits), storageCheck(in)})
     rows.push_back(std::move(row));
   return rows;
 }

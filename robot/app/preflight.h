@@ -35,6 +35,7 @@ struct PreflightInputs {
   LidarDefects lidar_defects;
   ArmSafetyMode arm_safety = ArmSafetyMode::Normal;
   PoseHealth pose_health = PoseHealth::Lost;
+  std::optional<double> fence_room_m;  ///< Geofence::room(); nullopt: there is no fence
   double battery_v = 0.0;
   bool storage_ok = true;
   std::vector<std::string> missing_edges;  ///< of the transform tree, "flange -> lidar"

@@ -8,6 +8,7 @@
 #include "common/core/log.h"
 #include "common/robot_model/robot_calibration.h"
 #include "robot/app/robot_reporting.h"
+#include "robot/app/safety_files.h"
 #include "robot/skills/arena_fence.h"
 
 namespace kiln {
@@ -183,8 +184,9 @@ void Robot::Impl::start(Executor& executor) {
                [this](RgbImagePtr image) { reporting.telemetry().onPicture(std::move(image)); });
   executor.every(fromSeconds(1.0 / body.settings.arm.servo_rate_hz), "control", kPriorityControl,
                  [this](Stamp t) {
+                   const auto wheels = body.devices.base.state();  // of which the odometry is made
                    body.tick(t);
-                   intake.remember(body.base.tracking().X_odom_base);
+                   intake.remember(wheels, body.base.tracking().X_odom_base);
                  });
   executor.every(kMissionPeriod, "mission", kPriorityMission, [this](Stamp t) { missionTick(t); });
   executor.every(kHealthPeriod, "health", kPriorityMission,
@@ -201,14 +203,14 @@ Result<std::unique_ptr<Robot>> Robot::create(const RobotSettings& settings,
                                              const RobotOptions& options, Devices devices,
                                              const Clock& clock, Executor& executor,
                                              OperatorLink* link, StopLatch& stop) {
-  auto robot = loadResource<RobotGeometry>(settings.geometry);
+  auto robot = loadGeometry(settings.geometry);
   if (!robot) return tl::make_unexpected(robot.error());
   if (auto calibrated = calibratedGeometry(*robot, options); calibrated) {
     robot = std::move(calibrated);
   } else {
     return tl::make_unexpected(calibrated.error());
   }
-  auto arena = loadResource<ArenaMap>(settings.arena);
+  auto arena = loadArena(settings.arena);
   if (!arena) return tl::make_unexpected(arena.error());
   if (settings.flat_ground) arena->approach = {};
   auto fence = arenaFence(*arena, *robot, settings.drive_to.fence);
@@ -218,7 +220,8 @@ Result<std::unique_ptr<Robot>> Robot::create(const RobotSettings& settings,
   auto impl =
       std::make_unique<Impl>(settings, options, std::move(devices), clock, executor, link, stop,
                              std::move(*robot), std::move(*arena), std::move(*location));
-  impl->body.base.setGeofence(std::make_shared<const Geofence>(std::move(*fence)));
+  impl->body.fence = std::make_shared<const Geofence>(std::move(*fence));
+  impl->body.base.setGeofence(impl->body.fence);
   if (auto opened = impl->open(executor); !opened) return tl::make_unexpected(opened.error());
   impl->start(executor);
   return std::unique_ptr<Robot>(new Robot(std::move(impl)));

@@ -52,6 +52,7 @@ struct RobotBody {
   const RobotGeometry robot;
   ArenaMap arena;
   const std::function<Pose2()> pose;
+  std::shared_ptr<const Geofence> fence;  ///< of `base`; set before anything runs
   BaseController base;
   ArmController arm;
   PumpController pumps;

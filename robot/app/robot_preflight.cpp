@@ -86,6 +86,7 @@ PreflightInputs RobotReporting::preflightInputs(Stamp now) const {
   if (arm_state) in.arm_safety = arm_state->safety;
   if (base_state) in.battery_v = base_state->battery_v;
   in.pose_health = parts_.localization.tracked().health;
+  if (body_.fence) in.fence_room_m = body_.fence->room(parts_.localization.pose());
   in.storage_ok = !parts_.mission.host().storageProblem();
   in.missing_edges = missingTransforms(now);
   in.tree_edges = fullTreeSize();

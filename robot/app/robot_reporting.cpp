@@ -2,19 +2,11 @@
 #include "robot/app/robot_reporting.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "common/geom/frames.h"
+#include "robot/app/standstill.h"
 
 namespace kiln {
-namespace {
-
-constexpr double kRest_radps = 0.02;  ///< joints and wheels below this stand still
-constexpr double kPumpRest_a = 0.3;
-constexpr double kProofAge_s = 0.1;  ///< older states prove no standstill
-
-}  // namespace
-
 RobotReporting::RobotReporting(Parts parts, Executor& executor)
     : parts_(parts),
       body_(parts.body),
@@ -98,27 +90,16 @@ void RobotReporting::raiseMissionAlarms(Stamp now) {
   mission_alarms_ = std::move(raised);
 }
 
-/// At rest by what was measured just now: what is old or no number proves nothing.
 StopStatus RobotReporting::stopStatus(Stamp now) const {
   StopStatus s;
   s.latched = body_.stop.latched();
   s.source = body_.stop.source();
   s.since = body_.stop.since();
   s.generation = body_.stop.generation();
-  const auto young = [&](const auto& state) {
-    return state && toSeconds(now - state->stamp) <= kProofAge_s;
-  };
-  if (const auto arm_state = body_.devices.arm.state(); young(arm_state))
-    s.arm_at_rest = (arm_state->qd.array().abs() <= kRest_radps).all();
-  if (const auto base_state = body_.devices.base.state(); young(base_state))
-    s.base_at_rest =
-        std::all_of(base_state->wheels.begin(), base_state->wheels.end(),
-                    [](const WheelState& w) { return std::abs(w.drive_radps) <= kRest_radps * 5; });
-  s.pumps_at_rest = body_.devices.pumps == nullptr;
-  if (const auto pump_state = body_.pump_device.state(); young(pump_state))
-    s.pumps_at_rest = std::all_of(pump_state->current_a.begin(), pump_state->current_a.end(),
-                                  [](double a) { return a < kPumpRest_a; });
-  s.standstill_proven = s.latched && s.arm_at_rest && s.base_at_rest && s.pumps_at_rest;
+  PumpsState none;  // at rest
+  none.stamp = now;
+  proveStandstill(s, body_.devices.arm.state(), body_.devices.base.state(),
+                  body_.devices.pumps ? body_.pump_device.state() : std::optional(none), now);
   return s;
 }
 

@@ -29,6 +29,7 @@ void RobotSettings::visit(ConfigArchive& a) {
   a.section("macros", macros, "macros");
   a.section("teleop", teleop, "moving by hand");
   a.section("preflight", preflight, "limits of the preflight checks");
+  a.section("link", link, "the operators' link");
   a.section("recording", recording, "the recorder");
 }
 

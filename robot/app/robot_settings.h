@@ -4,6 +4,7 @@
 
 #include "robot/app/live_surroundings.h"
 #include "robot/app/localization_settings.h"
+#include "robot/app/operator_link.h"
 #include "robot/app/perception_jobs.h"
 #include "robot/app/preflight.h"
 #include "robot/app/run_recorder.h"
@@ -42,6 +43,7 @@ struct RobotSettings {
   MacroConfig macros;
   Teleop::Config teleop;
   PreflightLimits preflight;
+  OperatorLink::Config link;  ///< endpoint: of the command line; robot_name: `name`
   RunRecorder::Config recording;
   void visit(ConfigArchive& a);
 };

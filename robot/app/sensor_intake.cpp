@@ -42,9 +42,10 @@ void SensorIntake::stop() {
   if (body_.devices.operator_camera) body_.devices.operator_camera->stop();
 }
 
-void SensorIntake::remember(const Pose2& X_odom_base) {
+void SensorIntake::remember(const std::optional<BaseState>& wheels, const Pose2& X_odom_base) {
   const auto arm_state = body_.devices.arm.state();
-  if (arm_state) history_.add({arm_state->stamp, arm_state->q, X_odom_base});
+  if (arm_state) history_.addJoints(arm_state->stamp, arm_state->q);
+  if (wheels) history_.addOdometry(wheels->stamp, X_odom_base);
 }
 
 void SensorIntake::forget() {

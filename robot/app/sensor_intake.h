@@ -22,8 +22,8 @@ class SensorIntake {
   void start(std::function<void(ThermalImagePtr)> thermal,
              std::function<void(RgbImagePtr)> picture);
   void stop();
-  /// Joints and odometry now, to place sensor frames by.
-  void remember(const Pose2& X_odom_base);
+  /// Joints now, and the odometry that was made of `wheels`, to place sensor frames by.
+  void remember(const std::optional<BaseState>& wheels, const Pose2& X_odom_base);
   /// The robot was carried: nothing that was seen fits any more.
   void forget();
 

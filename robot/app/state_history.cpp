@@ -8,54 +8,68 @@ namespace {
 constexpr Duration kExtrapolation = std::chrono::milliseconds(50);
 constexpr Duration kGoesOn = std::chrono::milliseconds(10);
 
-RobotSample blend(const RobotSample& a, const RobotSample& b, Stamp stamp) {
-  const double s = toSeconds(stamp - a.stamp) / toSeconds(b.stamp - a.stamp);
-  RobotSample out;
-  out.stamp = stamp;
-  out.q = (1.0 - s) * a.q + s * b.q;
-  out.X_odom_base.x_m = (1.0 - s) * a.X_odom_base.x_m + s * b.X_odom_base.x_m;
-  out.X_odom_base.y_m = (1.0 - s) * a.X_odom_base.y_m + s * b.X_odom_base.y_m;
-  out.X_odom_base.yaw_rad = wrapAngle(a.X_odom_base.yaw_rad +
-                                      s * wrapAngle(b.X_odom_base.yaw_rad - a.X_odom_base.yaw_rad));
-  return out;
+Vector6d blend(const Vector6d& a, const Vector6d& b, double s) { return (1.0 - s) * a + s * b; }
+
+Pose2 blend(const Pose2& a, const Pose2& b, double s) {
+  return {(1.0 - s) * a.x_m + s * b.x_m, (1.0 - s) * a.y_m + s * b.y_m,
+          wrapAngle(a.yaw_rad + s * wrapAngle(b.yaw_rad - a.yaw_rad))};
+}
+
+template <class T>
+using Series = std::deque<std::pair<Stamp, T>>;
+
+template <class T>
+void append(Series<T>& series, Stamp stamp, const T& value, Duration span) {
+  if (!series.empty() && stamp <= series.back().first) return;
+  series.emplace_back(stamp, value);
+  while (series.front().first < stamp - span) series.pop_front();
+}
+
+template <class T>
+T between(const std::pair<Stamp, T>& a, const std::pair<Stamp, T>& b, Stamp stamp) {
+  return blend(a.second, b.second, toSeconds(stamp - a.first) / toSeconds(b.first - a.first));
+}
+
+template <class T>
+std::optional<T> valueAt(const Series<T>& series, Stamp stamp) {
+  if (series.empty() || stamp < series.front().first) return std::nullopt;
+  const auto& newest = series.back();
+  if (stamp >= newest.first) {
+    if (stamp > newest.first + kExtrapolation) return std::nullopt;
+    if (series.size() < 2) return newest.second;
+    const auto& before = series[series.size() - 2];
+    if (newest.first - before.first > kExtrapolation) return newest.second;
+    return between(before, newest, std::min(stamp, newest.first + kGoesOn));
+  }
+  const auto after = std::upper_bound(series.begin(), series.end(), stamp,
+                                      [](Stamp t, const auto& entry) { return t < entry.first; });
+  return between(*(after - 1), *after, stamp);
 }
 
 }  // namespace
 
-void StateHistory::add(const RobotSample& sample) {
+void StateHistory::addJoints(Stamp stamp, const Vector6d& q) {
   const std::lock_guard lock(mutex_);
-  if (!samples_.empty() && sample.stamp <= samples_.back().stamp) return;
-  samples_.push_back(sample);
-  while (samples_.front().stamp < sample.stamp - span_) samples_.pop_front();
+  append(joints_, stamp, q, span_);
+}
+
+void StateHistory::addOdometry(Stamp stamp, const Pose2& X_odom_base) {
+  const std::lock_guard lock(mutex_);
+  append(odometry_, stamp, X_odom_base, span_);
 }
 
 std::optional<RobotSample> StateHistory::at(Stamp stamp) const {
   const std::lock_guard lock(mutex_);
-  if (samples_.empty() || stamp < samples_.front().stamp) return std::nullopt;
-  if (stamp >= samples_.back().stamp) {
-    if (stamp > samples_.back().stamp + kExtrapolation) return std::nullopt;
-    if (samples_.size() < 2) return samples_.back();
-    const RobotSample &a = samples_[samples_.size() - 2], &b = samples_.back();
-    if (b.stamp - a.stamp > kExtrapolation) return b;
-    RobotSample ahead = blend(a, b, std::min(stamp, b.stamp + kGoesOn));
-    ahead.stamp = stamp;
-    return ahead;
-  }
-  const auto after =
-      std::upper_bound(samples_.begin(), samples_.end(), stamp,
-                       [](Stamp t, const RobotSample& sample) { return t < sample.stamp; });
-  return blend(*(after - 1), *after, stamp);
-}
-
-std::optional<RobotSample> StateHistory::newest() const {
-  const std::lock_guard lock(mutex_);
-  if (samples_.empty()) return std::nullopt;
-  return samples_.back();
+  const auto q = valueAt(joints_, stamp);
+  const auto X_odom_base = valueAt(odometry_, stamp);
+  if (!q || !X_odom_base) return std::nullopt;
+  return RobotSample{stamp, *q, *X_odom_base};
 }
 
 void StateHistory::clear() {
   const std::lock_guard lock(mutex_);
-  samples_.clear();
+  joints_.clear();
+  odometry_.clear();
 }
 
 }  // namespace kiln

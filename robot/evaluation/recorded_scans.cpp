@@ -29,7 +29,8 @@ class ScanPreparation {
       history_.clear();
       waiting_.clear();
     }
-    if (sample.arm) history_.add({sample.stamp, sample.arm->q, sample.X_odom_base});
+    if (sample.arm) history_.addJoints(sample.arm->stamp, sample.arm->q);
+    history_.addOdometry(sample.base ? sample.base->stamp : sample.stamp, sample.X_odom_base);
     newest_ = sample.stamp;
   }
   void add(PointCloud scan) {

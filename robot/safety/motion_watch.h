@@ -26,7 +26,7 @@ class MotionWatch {
     double way_tolerance_m = 0.35;
     double way_share = 0.30;  ///< and so much of the way
     double turn_tolerance_deg = 10.0;
-    double way_hold_s = 1.0;  ///< counts after this long: a mission that is stuck stops by itself
+    double way_hold_s = 1.5;  ///< counts after this long: a mission that is stuck stops by itself
     void visit(ConfigArchive& a);
   };
   struct Input {

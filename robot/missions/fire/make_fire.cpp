@@ -1,6 +1,5 @@
 #include "robot/missions/fire/make_fire.h"
 
-#include "common/config/resources.h"
 #include "robot/missions/fire/fire_mission.h"
 
 namespace kiln {
@@ -27,9 +26,8 @@ Result<std::unique_ptr<Mission>> makeFire(const MissionConfig& config,
     return makeError(ErrorCode::InvalidInput,
                      "arena '{}' has no fire_places: there is nothing to look for",
                      parts.arena.name);
-  const auto spray = loadResource<SprayCalibration>(section.spray_calibration);
+  const auto spray = loadSprayCalibration(section.spray_calibration);
   if (!spray) return tl::make_unexpected(spray.error());
-  if (auto valid = spray->validate(); !valid) return tl::make_unexpected(valid.error());
   auto heat = std::make_unique<HeatTask>(section.heat, parts.executor);
   const FireDevices devices{parts, heat->sweep(), *spray};
   return std::make_unique<FireMission>(devices, section.mission, mission_uuid, std::move(heat));

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "common/config/required_keys.h"
+
 namespace kiln {
 namespace {
 
@@ -56,6 +58,14 @@ double SprayCalibration::lateralAt(double at_m) const {
 
 double SprayCalibration::flowScale(double level) const {
   return 1.0 - empty_tank_fade * (1.0 - std::clamp(level, 0.0, 1.0));
+}
+
+Result<SprayCalibration> loadSprayCalibration(const std::string& resource) {
+  auto loaded = loadComplete<SprayCalibration>(
+      resource, {"exit_speed_mps", "distance_m", "drop_m", "lateral_m", "spread_deg"});
+  if (!loaded) return loaded;
+  if (auto valid = loaded->validate(); !valid) return tl::make_unexpected(valid.error());
+  return loaded;
 }
 
 }  // namespace kiln

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -36,5 +37,9 @@ struct SprayCalibration {
   /// Share of the full flow that a tank at `level` (0..1) still gives.
   [[nodiscard]] double flowScale(double level) const;
 };
+
+/// Where the jet goes is never a default: every table must stand in the file. Errors: those of
+/// loadComplete() and validate().
+[[nodiscard]] Result<SprayCalibration> loadSprayCalibration(const std::string& resource);
 
 }  // namespace kiln

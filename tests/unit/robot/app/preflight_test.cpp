@@ -15,6 +15,7 @@ PreflightInputs healthy() {
   in.lidar_age_s = 0.1;
   in.cloud_age_s = 0.2;
   in.pose_health = PoseHealth::Good;
+  in.fence_room_m = 1.4;
   in.battery_v = 29.0;
   in.tree_edges = 10;
   in.clocks = {{"the LiDAR", 0.0}, {"Ann's station", 0.004}};
@@ -82,6 +83,9 @@ TEST(Preflight, NamesEachFailureWithWhatToDo) {
       {"Perception", [](auto& in) { in.cloud_age_s = 1.4; }},
       {"Perception", [](auto& in) { in.cloud_age_s.reset(); }},
       {"Transforms", [](auto& in) { in.missing_edges = {"flange -> lidar"}; }},
+      {"Geofence", [](auto& in) { in.fence_room_m.reset(); }},
+      {"Geofence", [](auto& in) { in.fence_room_m = -0.1; }},
+      {"Geofence", [&](auto& in) { in.fence_room_m = kNaN; }},
       {"Clocks", [](auto& in) { in.clocks[1].error_s = -2.0; }},
       {"Clocks", [&](auto& in) { in.clocks[0].error_s = kNaN; }},
       {"Controller limits", [](auto& in) { in.limits[0].configured = 5.0; }},

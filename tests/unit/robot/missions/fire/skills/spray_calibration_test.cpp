@@ -1,5 +1,7 @@
 #include "robot/missions/fire/skills/spray_calibration.h"
 
+#include <fstream>
+
 #include <gtest/gtest.h>
 
 namespace kiln {
@@ -33,6 +35,16 @@ TEST(SprayCalibration, RefusesTablesThatDoNotFit) {
   SprayCalibration empty;
   empty.distance_m = empty.drop_m = empty.lateral_m = {};
   EXPECT_FALSE(empty.validate().has_value());
+}
+
+TEST(SprayCalibration, AnAbsentTableIsAnErrorWithFileAndName) {
+  EXPECT_TRUE(loadSprayCalibration("config/spray_calibration.yaml").has_value());
+  const std::string copy = ::testing::TempDir() + "/spray_calibration.yaml";
+  std::ofstream(copy) << "exit_speed_mps: 6.0\n";
+  const auto loaded = loadSprayCalibration(copy);
+  ASSERT_FALSE(loaded.has_value());
+  EXPECT_NE(loaded.error().message.find(copy + ": 'distance_m' is missing"), std::string::npos)
+      << loaded.error();
 }
 
 }  // namespace
