@@ -132,7 +132,7 @@ TEST_F(TeleopTest, ArmJogStopsBeforeAPlaceWhereItStandsNow) {
   teleop_.jogArm(jog, arm_device_.state()->q, Pose2{}, clock_.now(), 1.0);
   EXPECT_EQ(teleop_.blocked(), "") << "far away";
   const double reach_m = robot_.X_base_flange(arm_device_.state()->q).translation().x();
-  arena_.movePlace(0, {reach_m + 0.3, 0.0, 1.0}, M_PI);
+  arena_.movePlace(0, {reach_m + 0.25, 0.0, 1.0}, M_PI);
   teleop_.jogArm(jog, arm_device_.state()->q, Pose2{}, clock_.now(), 1.0);
   EXPECT_NE(teleop_.blocked().find("place 1"), std::string::npos) << teleop_.blocked();
   arena_.movePlace(0, {6.0, 0.0, 1.0}, M_PI);
