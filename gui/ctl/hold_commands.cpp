@@ -19,7 +19,7 @@ constexpr double kToolSpeed_mps = 0.25, kTurnRate_radps = 0.6;
 /// What asks the robot for this very speed: it takes a jog as a share of the speed scale.
 /// @return  Error{Refused} for one that the scale does not allow.
 Result<CommandBody> unscaled(const CommandBody& setpoint, double scale) {
-  if (std::holds_alternative<HoldPump>(setpoint)) return setpoint;
+  if (std::holds_alternative<HoldActuator>(setpoint)) return setpoint;
   if (scale <= 0.0)
     return makeError(ErrorCode::Refused, "the speed scale is 0: kilnctl speed 0.35");
   double most = 0.0;  // share of the full speed

@@ -137,7 +137,7 @@ TestRobot::Impl::Impl(TestRobot& robot)
       value(loadMacros({folder, folder + "/fire"}, kinds)));
   host_ = std::make_unique<MissionHost>(*mission_, belief_, stop_, clock_);
   control_ = std::make_unique<MissionControl>(MissionControl::Parts{
-      *host_, authority_, teleop_, *macros_, alarms_, stop_, arm_device_, arm_, referee_,
+      *host_, authority_, teleop_, *macros_, alarms_, stop_, arm_device_, arm_, &referee_,
       [this] { return pose(); }, [this](Stamp) { return situation(); },
       [this](const Pose2& X_map_base) {
         base_device_.setTruePose(X_map_base);
@@ -166,7 +166,8 @@ void TestRobot::Impl::control(Stamp now) {
   base_.tick(now);
   arm_.tick(now);
   pumps_.tick(now);
-  history_.add({now, arm_device_.state()->q, pose()});
+  history_.addJoints(now, arm_device_.state()->q);
+  history_.addOdometry(now, pose());
 }
 
 void TestRobot::Impl::mission(Stamp now) {
