@@ -37,7 +37,7 @@ TEST_F(MissionWords, AreFoundInAnyFormOfAnIdentifier) {
   for (const char* code :
        {"struct FirePlace;", "int fire_places;", "auto n = fireFurniture();", "double kFire = 1;",
         "bool spraying_;", "if (HEAT_MAP) f();", "double litres;", "x.jet.points = 1;",
-        "#include \"robot/missions/fire/x.h\""}) {
+        "#include \"robot/missions/fire/site.h\""}) {
     EXPECT_THAT(missionWords(table_, "robot/planning/x.cpp", code),
                 ElementsAre(HasSubstr("x.cpp:1")))
         << code;
