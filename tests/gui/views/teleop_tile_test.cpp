@@ -114,6 +114,16 @@ TEST_F(TeleopTileTest, ThePumpRunsOnlyWhileItsButtonIsHeld) {
   EXPECT_EQ(link.releases, 1);
 }
 
+TEST_F(TeleopTileTest, MacrosThatSprayComeFirst) {
+  emit link.macros({{"arm park", "", 6.0, 0.0, ""},
+                    {"spray fire 1", "", 18.0, 0.9, ""},
+                    {"spray fire 2", "", 18.0, 0.9, ""}});
+  models.flush();
+  ASSERT_EQ(macros.rows().size(), 3U);
+  EXPECT_EQ(macros.rows()[0]->macro().name, "spray fire 1");
+  EXPECT_EQ(macros.rows()[1]->macro().name, "spray fire 2");
+}
+
 TEST_F(TeleopTileTest, AMacroIsCancelledByLettingGoAndByAStop) {
   emit link.macros({{"arm park", "", 6.0, 0.0, ""}});
   models.flush();
