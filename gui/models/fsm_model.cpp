@@ -61,9 +61,9 @@ double FsmModel::timeInStateS() const {
   // itself.
   if (status_->state.empty()) return 0.0;
   const double since_s = toSeconds(status_->stamp - status_->entered - paused_);
-  const bool running =
-      status_->running && !status_->paused && !status_->terminal && ageLevel() == AgeLevel::Fresh;
-  return std::max(0.0, since_s + (running ? std::max(0.0, ageS()) : 0.0));
+  const bool running = status_->running && !status_->paused && !status_->terminal;
+  const double age_s = std::clamp(ageS(), 0.0, ageLimits().amber_s);
+  return std::max(0.0, since_s + (running ? age_s : 0.0));
 }
 
 int FsmModel::timesTaken(const QString& from, const QString& to) const {

@@ -14,7 +14,7 @@ LeaseModel::LeaseModel(Link& link, CommandTracker& commands, QObject* parent)
 }
 
 LeaseHolder LeaseModel::holder() const {
-  if (!hasData() || ageLevel() == AgeLevel::Red) return LeaseHolder::Unknown;
+  if (!hasData() || ageLevel() != AgeLevel::Fresh) return LeaseHolder::Unknown;
   if (lease_.holder_client.empty()) return LeaseHolder::Free;
   return lease_.holder_client == link().clientId().toStdString() ? LeaseHolder::Mine
                                                                  : LeaseHolder::Other;

@@ -28,7 +28,7 @@ LocalizationModel::LocalizationModel(Link& link, QObject* parent)
 }
 
 QString LocalizationModel::summary() const {
-  if (!status_ || ageLevel() == AgeLevel::Red) return tr("unknown");
+  if (!status_ || ageLevel() != AgeLevel::Fresh) return tr("unknown");
   if (status_->health == LocalizationHealth::Lost) return tr("lost");
   const QString word = status_->health == LocalizationHealth::Good ? tr("good") : tr("degraded");
   return tr("%1 ±%2 ±%3")

@@ -1,5 +1,7 @@
 #include "gui/models/station_models.h"
 
+#include "gui/models/alone.h"
+
 namespace kiln::gui {
 
 StationModels::StationModels(Link& link_in, QObject* parent)
@@ -47,7 +49,8 @@ bool StationModels::mayCommand(QString* why) const {
     return false;
   };
   if (link.readOnly()) return refuse(tr("a recording cannot be commanded"));
-  if (status.word() == StatusWord::NoLink) return refuse(tr("no link to the robot"));
+  if (status.word() == StatusWord::NoLink || link_state.health().state == LinkState::Lost)
+    return refuse(tr("no link to the robot"));
   if (stop.latched()) return refuse(tr("stopped: clear the stop first"));
   if (lease.holder() == LeaseHolder::Other)
     return refuse(tr("%1 has the lease").arg(lease.holderName()));
@@ -79,10 +82,13 @@ void StationModels::flush() {
 void StationModels::watchLink() {
   const LinkHealth& health = link_state.health();
   const bool heard_before = status.hasData();
-  alarms.setOwn(QStringLiteral("station.link_lost"), AlarmLevel::Warning,
-                heard_before && health.state == LinkState::Lost,
-                tr("No link to the robot: it does not answer"),
-                tr("check radio and robot; its dead-man has stopped any jog and the pumps"));
+  alarms.setOwn(
+      QStringLiteral("station.link_lost"), AlarmLevel::Warning,
+      heard_before && health.state == LinkState::Lost,
+      tr("No link to the robot: it does not answer"),
+      heard_before
+          ? tr("as last heard %1; check radio and robot").arg(whatItDoesAlone(*status.status()))
+          : QString());
   alarms.setOwn(
       QStringLiteral("station.not_heard"), AlarmLevel::Caution,
       heard_before && health.state == LinkState::Degraded && health.robot_hears_age_s > 1.5,

@@ -147,6 +147,7 @@ TestRobot::Impl::Impl(TestRobot& robot)
         if (on && !recording_.on) recording_since_ = now();
         recording_.on = on;
         recording_.file = "run.mcap";
+        recording_.disk_free_bytes = 41e9;
       }});
   log_sink_ = addLogSink([this](const LogRecord& record) {
     log_.push_back({now(), record.level, record.logger, record.text});
@@ -295,7 +296,7 @@ void TestRobot::setHeard(const std::string& client, bool heard) {
   heard ? void(impl_->silent_.erase(client)) : void(impl_->silent_.insert(client));
 }
 
-void TestRobot::stop(const std::string& who) { (void)impl_->stop_.set("STOP by " + who, now()); }
+void TestRobot::stop(const std::string& who) { (void)impl_->stop_.set(who, now()); }
 
 RobotStatus TestRobot::status() const {
   RobotStatus s;

@@ -93,6 +93,30 @@ JumpPanel::JumpPanel(const Ui& ui, StationModels& models, ForcedJump& jump, QWid
   refreshMission();
 }
 
+/// Why a mission cannot be started; empty: it can.
+QString JumpPanel::startLock() const {
+  QString why;
+  if (!models_.mayCommand(&why)) return why;
+  const RobotStatus& status = *models_.status.status();
+  if (status.mode == Mode::Teleop)
+    return tr("a mission does not start in Teleop: hold \"To autonomy\" first");
+  if (status.word == StatusWord::Ready) return {};
+  return status.reason.empty() ? tr("the robot is not ready")
+                               : tr("not ready: %1").arg(QString::fromStdString(status.reason));
+}
+
+/// Why a held mission cannot go on; empty: it can.
+QString JumpPanel::resumeLock() const {
+  QString why;
+  if (!models_.mayCommand(&why)) return why;
+  if (models_.status.status()->mode == Mode::Teleop)
+    return tr("the mission rests in Teleop: go back to autonomy, then resume it");
+  const LocalizationStatus* where = models_.localization.status();
+  if (where && where->health == LocalizationHealth::Lost)
+    return tr("position lost: set the pose on the map, drive by hand or call a reset");
+  return {};
+}
+
 void JumpPanel::refreshMission() {
   QString why;
   const bool may = models_.mayCommand(&why);
@@ -101,17 +125,15 @@ void JumpPanel::refreshMission() {
   const bool paused = fsm && fsm->paused;
   start_->setVisible(!running);
   pause_->setVisible(running);
-  start_->setEnabled(may && models_.status.word() == StatusWord::Ready);
-  const bool teleop = models_.status.status() && models_.status.status()->mode == Mode::Teleop;
-  pause_->setEnabled(may && !(paused && teleop));
+  const QString start_lock = startLock(), pause_lock = paused ? resumeLock() : why;
+  start_->setEnabled(start_lock.isEmpty());
+  pause_->setEnabled(pause_lock.isEmpty());
   arm_->setEnabled(may);
   pause_->setText(paused ? tr("Resume mission") : tr("Pause"));
   pause_->setSubtext(paused ? tr("goes on from here") : tr("rests where it stands"));
   pause_->setKind(paused ? ActKind::Primary : ActKind::Normal);
-  setTip(*start_, may ? tr("The robot begins to drive.") : why);
-  setTip(*pause_, may && paused && teleop
-                      ? tr("the mission rests in Teleop: go back to autonomy, then resume it")
-                      : why);
+  setTip(*start_, start_lock.isEmpty() ? tr("The robot begins to drive.") : start_lock);
+  setTip(*pause_, pause_lock);
   setTip(*arm_, may ? tr("Choose the next state yourself.") : why);
 }
 

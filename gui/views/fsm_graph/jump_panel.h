@@ -26,6 +26,8 @@ class JumpPanel : public QWidget {
  private:
   void refresh();
   void refreshMission();
+  [[nodiscard]] QString startLock() const;
+  [[nodiscard]] QString resumeLock() const;
   void pauseOrResume();
   Ui ui_;
   StationModels& models_;

@@ -23,6 +23,14 @@ bool sameMacros(const std::vector<MacroRow*>& rows, const std::vector<MacroInfo>
                     });
 }
 
+/// Those that use something up first: they are needed in a hurry, and the list shows but two
+/// without scrolling.
+std::vector<MacroInfo> inOrder(std::vector<MacroInfo> macros) {
+  std::stable_partition(macros.begin(), macros.end(),
+                        [](const MacroInfo& m) { return !m.uses.empty(); });
+  return macros;
+}
+
 }  // namespace
 
 MacrosTile::MacrosTile(const Ui& ui, HoldToRun& hold, QWidget* parent)
@@ -82,7 +90,7 @@ void MacrosTile::rebuildRows() {
   for (MacroRow* row : rows_) row->parentWidget()->deleteLater();
   rows_.clear();
   while (QLayoutItem* item = list_->takeAt(0)) delete item;
-  for (const MacroInfo& macro : models_.macros.macros()) addRow(macro);
+  for (const MacroInfo& macro : inOrder(models_.macros.macros())) addRow(macro);
   list_->addStretch(1);
 }
 
@@ -106,7 +114,7 @@ void MacrosTile::addRow(const MacroInfo& macro) {
 }
 
 void MacrosTile::refresh() {
-  if (!sameMacros(rows_, models_.macros.macros())) rebuildRows();
+  if (!sameMacros(rows_, inOrder(models_.macros.macros()))) rebuildRows();
   // What a silent robot was doing is not known any more.
   const bool heard = models_.status.ageLevel() != AgeLevel::Red;
   const MacroStatus running = heard ? models_.macros.running() : MacroStatus{};

@@ -24,7 +24,7 @@ LocalizationChip::LocalizationChip(const Ui& ui, const LocalizationModel& model,
 
 LocalizationChip::Mark LocalizationChip::mark() const {
   const LocalizationStatus* status = model_.status();
-  if (!status || model_.ageLevel() == AgeLevel::Red) return Mark::Unknown;
+  if (!status || model_.ageLevel() != AgeLevel::Fresh) return Mark::Unknown;
   switch (status->health) {
     case LocalizationHealth::Good:
       return Mark::Good;

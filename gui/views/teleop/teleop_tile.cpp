@@ -60,9 +60,6 @@ QWidget* TeleopTile::makeSide() {
   enter_->setSubtext(tr("robot holds"));
   leave_ = new HoldButton(ui_, tr("To autonomy"), 1.0);
   leave_->setSubtext(tr("hold 1 s"));
-  setTip(*enter_, tr("the mission pauses, the robot holds its pose until you move it"));
-  setTip(*leave_, tr("hold for 1 s: sticks and keys are released; the mission stays paused until "
-                     "you resume it"));
   state_ = new Label;
   state_->setWordWrap(true);
   state_->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Ignored);  // no word moves a control
@@ -81,7 +78,6 @@ QWidget* TeleopTile::makeSide() {
   speed_->setValue(kDefault_pct);
   speed_->setPageStep(5);
   speed_->setFocusPolicy(Qt::NoFocus);  // arrows belong to the arm
-  setTip(*speed_, tr("share of the teleop speed at full stick; the robot applies it"));
   column->addWidget(speed_);
   return side;
 }
@@ -106,7 +102,13 @@ void TeleopTile::sendSpeed() {
 void TeleopTile::refreshMode() {
   const RobotStatus* status = models_.status.status();
   const bool teleop = status && status->mode == Mode::Teleop;
-  const bool may = models_.mayCommand();
+  QString why;
+  const bool may = models_.mayCommand(&why);
+  setTip(*enter_, may ? tr("the mission pauses, the robot holds its pose until you move it") : why);
+  setTip(*leave_, may ? tr("hold for 1 s: sticks and keys are released; the mission stays paused "
+                           "until you resume it")
+                      : why);
+  setTip(*speed_, may ? tr("share of the teleop speed at full stick; the robot applies it") : why);
   enter_->setVisible(!teleop);
   leave_->setVisible(teleop);
   enter_->setEnabled(may);

@@ -4,6 +4,7 @@
 #include <QPainter>
 #include <QPainterPath>
 
+#include "gui/models/alone.h"
 #include "gui/widgets/fitted_text.h"
 #include "gui/widgets/hatch.h"
 #include "gui/widgets/text.h"
@@ -36,8 +37,11 @@ QString StatusBlock::reason() const {
   const StatusWord word = models_.status.word();
   const LinkHealth& link = models_.link_state.health();
   if (word == StatusWord::NoLink && models_.link.readOnly()) return tr("nothing recorded here");
-  if (word == StatusWord::NoLink) return link.reason.isEmpty() ? tr("connecting …") : link.reason;
-  const RobotStatus& status = *models_.status.status();
+  const RobotStatus* last = models_.status.status();
+  if (last && (word == StatusWord::NoLink || link.state == LinkState::Lost))
+    return tr("%1 Last heard, %2.").arg(link.reason, whatItDoesAlone(*last));
+  if (!last) return link.reason.isEmpty() ? tr("connecting …") : link.reason;
+  const RobotStatus& status = *last;
   if (!status.reason.empty()) return QString::fromStdString(status.reason);
   const FsmStatus* fsm = models_.fsm.status();
   if (!fsm) return {};

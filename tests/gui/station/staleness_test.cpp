@@ -52,6 +52,39 @@ TEST(Staleness, ALostLinkRaisesAnAlarmThatOutlivesItUntilAcknowledged) {
   EXPECT_EQ(station.models.alarms.top(), nullptr);
 }
 
+TEST(Staleness, ALostLinkSaysWhatTheRobotDoesByItself) {
+  for (const bool by_hand : {false, true}) {
+    SteppedStation station;
+    station.takeLease();
+    station.startMission();
+    if (by_hand) station.models.commands.send(SetMode{Mode::Teleop}, "teleop");
+    station.pass(1.0);
+    station.link.setSilent(true);
+    station.pass(1.7);
+    const AlarmModel::Entry* top = station.models.alarms.top();
+    ASSERT_NE(top, nullptr);
+    EXPECT_NE(top->alarm.action.find(by_hand ? "pumps off" : "GOES ON by itself"),
+              std::string::npos)
+        << top->alarm.action;
+    EXPECT_FALSE(station.models.mayCommand());
+    EXPECT_EQ(station.models.lease.holder(), LeaseHolder::Unknown);
+    EXPECT_EQ(station.models.localization.summary(), "unknown");
+  }
+}
+
+TEST(Staleness, TheClockOfAStateNeverRunsBack) {
+  SteppedStation station;
+  station.startMission();
+  station.pass(2.0);
+  station.link.setSilent(true);
+  double shown_s = 0.0;
+  for (int i = 0; i < 40; ++i) {
+    station.pass(0.1);
+    EXPECT_GE(station.models.fsm.timeInStateS(), shown_s);
+    shown_s = station.models.fsm.timeInStateS();
+  }
+}
+
 TEST(Staleness, ADeafRobotIsTold) {
   SteppedStation station;
   station.pass(2.0);

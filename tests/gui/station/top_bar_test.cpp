@@ -79,6 +79,17 @@ TEST_F(TopBarTest, AStopLaneWithoutAPeerSaysSo) {
   EXPECT_EQ(bar.leaseChip()->text(), "Lease unknown");
 }
 
+TEST_F(TopBarTest, ALostLinkLeavesTheWordOfWhatTheRobotDoesAlone) {
+  station.startMission();
+  station.pass(1.0);
+  station.link.setSilent(true);
+  for (int i = 0; i < 4; ++i) {
+    station.pass(1.7);
+    EXPECT_TRUE(bar.statusBlock()->reason().contains("GOES ON by itself"))
+        << bar.statusBlock()->reason().toStdString();
+  }
+}
+
 TEST_F(TopBarTest, WithoutALinkStopIsStillPressedKeptAndSaysWhatToDo) {
   EXPECT_TRUE(bar.stopNote()->isHidden());
   station.link.setSilent(true);

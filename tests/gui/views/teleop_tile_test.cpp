@@ -118,6 +118,16 @@ TEST_F(TeleopTileTest, ThePumpRunsOnlyWhileItsButtonIsHeld) {
   EXPECT_EQ(link.releases, 1);
 }
 
+TEST_F(TeleopTileTest, MacrosThatUseSomethingUpComeFirst) {
+  emit link.macros({{"arm park", "", 6.0, "", ""},
+                    {"spray fire 1", "", 18.0, "", "est. 0.9 l"},
+                    {"spray fire 2", "", 18.0, "", "est. 0.9 l"}});
+  models.flush();
+  ASSERT_EQ(macros.rows().size(), 3U);
+  EXPECT_EQ(macros.rows()[0]->macro().name, "spray fire 1");
+  EXPECT_EQ(macros.rows()[1]->macro().name, "spray fire 2");
+}
+
 TEST_F(TeleopTileTest, AMacroIsCancelledByLettingGoAndByAStop) {
   emit link.macros({{"arm park", "", 6.0, "", ""}});
   models.flush();

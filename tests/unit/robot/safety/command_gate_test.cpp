@@ -180,9 +180,9 @@ TEST(CommandGate, FollowsTheModeTable) {
 
 TEST(CommandGate, RefusesPumpsByHandWhereThereAreNone) {
   Desk desk;
-  EXPECT_EQ(desk.code(HoldPump{1.0, 1.0}), "");
-  desk.situation.has_pumps = false;
-  EXPECT_EQ(desk.code(HoldPump{1.0, 1.0}), "no_device");
+  EXPECT_EQ(desk.code(HoldActuator{"pumps", 1.0}), "");
+  desk.mission.actuators.clear();
+  EXPECT_EQ(desk.code(HoldActuator{"pumps", 1.0}), "no_such_actuator");
   EXPECT_EQ(desk.code(HoldMacro{"arm park", false}), "");
 }
 

@@ -89,7 +89,7 @@ class ShippedMacros : public ::testing::Test {
   ManualExecutor executor{clock};
   FireContext context{{{clock, executor, arena, robot, belief, drive, skill, arm, pumps,
                         [this] { return base; }, surroundings, [](Stamp) { return std::nullopt; },
-                        [](const ThermalImagePtr&) {}, [](const HeatDetections&) {}},
+                        [](const ThermalImagePtr&) {}, [](const MissionDetail&) {}},
                        sweep,
                        calibration},
                       {}};
