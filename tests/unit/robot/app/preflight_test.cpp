@@ -151,7 +151,7 @@ TEST(Preflight, SaysWhatWasMeasured) {
   in.pumps->current_a = {3.2, 0.0};
   EXPECT_EQ(rowOf(in, "Pump current").detail, "left pump draws 3.2 A at rest");
   in.pumps->duty = {1.0, 0.0};  // sprayed by hand
-  EXPECT_EQ(rowOf(in, "Pump current").detail, "3.2 and 0.0 A, spraying");
+  EXPECT_EQ(rowOf(in, "Pump current").detail, "3.2 and 0.0 A, running");
   in.lidar_defects = {"1 refused (data packet has 5 bytes)", 0.0};
   EXPECT_EQ(rowOf(in, "LiDAR").detail, "0.10 s old; 1 refused (data packet has 5 bytes)");
   EXPECT_FALSE(rowOf(in, "LiDAR").warn);

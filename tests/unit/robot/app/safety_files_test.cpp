@@ -50,7 +50,7 @@ TEST(SafetyFiles, TheShippedOnesAreComplete) {
 }
 
 TEST(SafetyFiles, AnAbsentKeyIsAnErrorWithFileAndName) {
-  const std::string copy = testing::TempDir() + "/safety_file.yaml";
+  const std::string copy = testing::TempDir() + "safety_file.yaml";
   for (const SafetyFile& file : files()) {
     const auto text =
         readRegularFile(kiln::sourceDir() + "/resources/" + file.shipped, 1U << 20).value();

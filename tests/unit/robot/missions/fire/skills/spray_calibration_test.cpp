@@ -39,7 +39,7 @@ TEST(SprayCalibration, RefusesTablesThatDoNotFit) {
 
 TEST(SprayCalibration, AnAbsentTableIsAnErrorWithFileAndName) {
   EXPECT_TRUE(loadSprayCalibration("config/spray_calibration.yaml").has_value());
-  const std::string copy = ::testing::TempDir() + "/spray_calibration.yaml";
+  const std::string copy = ::testing::TempDir() + "spray_calibration.yaml";
   std::ofstream(copy) << "exit_speed_mps: 6.0\n";
   const auto loaded = loadSprayCalibration(copy);
   ASSERT_FALSE(loaded.has_value());
