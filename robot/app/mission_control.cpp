@@ -205,6 +205,7 @@ void MissionControl::holdMission(HoldReason reason, const std::string& text, Sta
 }
 
 void MissionControl::onReset(Stamp now) {
+  observeStop(now);  // a STOP of this tick comes first: the state is entered held
   endHandWork(now);
   parts_.host.onReset(now);
   logger("mission")->warn("reset: robot is back at its start, clock runs on");

@@ -1,9 +1,10 @@
 #include <csignal>
+#include <limits>
 #include <map>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "common/config/command_line.h"
 #include "common/config/resources.h"
 #include "common/core/log.h"
 #include "common/core/scheduling.h"
@@ -38,7 +39,9 @@ void addOptions(CLI::App& app, Options& o) {
   app.set_version_flag("--version", std::string("kiln-sim ") + KILN_VERSION);
   app.add_option("--world", o.world, "World: a YAML file, or a name in resources/worlds")
       ->capture_default_str();
-  app.add_option("--seed", o.seed, "What is drawn: fire, errors, noise")->capture_default_str();
+  app.add_option("--seed", o.seed, "What is drawn: fire, errors, noise")
+      ->capture_default_str()
+      ->check(kiln::wholeUpTo(std::numeric_limits<std::uint64_t>::max()));
   app.add_option("--listen", o.server.endpoint, "ipc://PATH or tcp://127.0.0.1:PORT")
       ->capture_default_str();
   app.add_flag("--lockstep", o.server.lockstep,
@@ -81,7 +84,7 @@ int main(int argc, char** argv) {
   CLI::App app("kiln-sim: the world, its devices and its truth");
   Options options;
   addOptions(app, options);
-  CLI11_PARSE(app, argc, argv);
+  if (const auto status = kiln::parseCommandLine(app, argc, argv)) return *status;
 
   struct sigaction action {};
   action.sa_handler = onSignal;  // no SA_RESTART: poll returns at once
