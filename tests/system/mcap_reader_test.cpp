@@ -99,6 +99,8 @@ std::string record(const std::string& folder) {
   thermal.counts.assign(160 * 120, 29'500);
   HeatDetections heat;
   heat.blobs.resize(2);
+  const MissionDetail stream = wire::encodeDetail(heat);
+  const MissionInfo mission = fire::missionInfo(0.5, 30.0);
   const JpegImage head{clock.now(), 1,  "rgb",
                        64,          48, {0xFF, 0xD8, 0xFF, 0xC0, 0, 17, 8, 0, 48, 0, 64, 3, 1, 2}};
   JpegImage operator_camera = head;
@@ -118,8 +120,8 @@ std::string record(const std::string& folder) {
     recorder.tap().published(
         Topic::Cloud, [&points] { return wire::encode(points, 0.005); }, clock.now());
     publish(recorder, Topic::Thermal, thermal);
-    publish(recorder, Topic::MissionStream, wire::encodeDetail(heat));
-    publish(recorder, Topic::MissionInfo, fire::missionInfo(0.5, 30.0));
+    publish(recorder, Topic::MissionStream, stream);
+    publish(recorder, Topic::MissionInfo, mission);
     publish(recorder, Topic::HeadCamera, head);
     publish(recorder, Topic::OperatorCamera, operator_camera);
     recorder.tap().command({"client", "Ann", 1, 1, clock.now(), 0, StartMission{}}, clock.now());
