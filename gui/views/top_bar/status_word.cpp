@@ -39,7 +39,7 @@ QString StatusBlock::reason() const {
   if (word == StatusWord::NoLink && models_.link.readOnly()) return tr("nothing recorded here");
   const RobotStatus* last = models_.status.status();
   if (last && (word == StatusWord::NoLink || link.state == LinkState::Lost))
-    return tr("%1 Last heard, %2.").arg(link.reason, whatItDoesAlone(*last));
+    return tr("As last heard %1; %2").arg(whatItDoesAlone(*last), link.reason);
   if (!last) return link.reason.isEmpty() ? tr("connecting …") : link.reason;
   const RobotStatus& status = *last;
   if (!status.reason.empty()) return QString::fromStdString(status.reason);
