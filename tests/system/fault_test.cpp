@@ -62,9 +62,9 @@ TEST(Faults, BlockedPumpsAreTriedOnceMoreThenThePlaceIsLeft) {
       << run.report["reason"];
 }
 
-// Unfolding meets the box, withdraws from it, waits and tries again when it has gone.
+// The arm, 6.6 s after it began to unfold, meets the box, withdraws from it, waits and tries again when it has gone.
 TEST(Faults, AnArmThatMeetsSomethingWithdrawsAndTriesAgain) {
-  const FaultyRun run = runWith("arm_obstacle@30:5", "obstacle");
+  const FaultyRun run = runWith("arm_obstacle@31.2:5", "obstacle");
   ASSERT_FALSE(run.states.empty());
   EXPECT_FALSE(run.report["collisions"].empty()) << "the arm never met it";
   EXPECT_GE(visits(run, "ArmBlocked"), 1);
