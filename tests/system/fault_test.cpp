@@ -62,7 +62,8 @@ TEST(Faults, BlockedPumpsAreTriedOnceMoreThenThePlaceIsLeft) {
       << run.report["reason"];
 }
 
-// The arm, 6.6 s after it began to unfold, meets the box, withdraws from it, waits and tries again when it has gone.
+// The arm, 6.6 s after it began to unfold, meets the box, withdraws from it, waits and tries again
+// when it has gone.
 TEST(Faults, AnArmThatMeetsSomethingWithdrawsAndTriesAgain) {
   const FaultyRun run = runWith("arm_obstacle@31.2:5", "obstacle");
   ASSERT_FALSE(run.states.empty());
