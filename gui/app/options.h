@@ -13,8 +13,8 @@ struct StationOptions {
   std::string endpoint = "tcp://127.0.0.1:7300";
   std::string operator_name = "operator";
   ThemeKind theme = ThemeKind::Dark;
-  std::string screenshots;            ///< folder; empty = none
-  std::string replay;                 ///< recording to play; empty = none
+  std::string screenshots;  ///< folder; empty = none
+  std::string replay;       ///< recording to play; empty = none
   int width = 1680, height = 1020;
   bool exit_when_done = false;
   bool stall_report = false;

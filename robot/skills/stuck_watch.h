@@ -8,7 +8,8 @@
 namespace kiln {
 
 /// Does the base go where its wheels are told to? Compares the commanded way with what the wheels
-/// report and with what the pose says, at each tick over the last window of time. Confined to the mission thread.
+/// report and with what the pose says, at each tick over the last window of time. Confined to the
+/// mission thread.
 class StuckWatch {
  public:
   struct Config {

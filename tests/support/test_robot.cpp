@@ -125,8 +125,8 @@ TestRobot::Impl::Impl(TestRobot& robot)
   info_.mission = "fire";
   info_.mission_uuid = "test-uuid";
   info_.actuators = Teleop::actuators();
-  MacroStepKinds kinds = robotMacroSteps(
-      {geometry_, geometry_.X_flange_nozzle.pose(), move_arm_, settings_.macros});
+  MacroStepKinds kinds =
+      robotMacroSteps({geometry_, geometry_.X_flange_nozzle.pose(), move_arm_, settings_.macros});
   for (MacroStepKind& kind : mission_->macroSteps(settings_.macros))
     kinds.push_back(std::move(kind));
   const std::string folder = value(resourcePath("macros"));

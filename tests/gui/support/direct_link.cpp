@@ -130,8 +130,7 @@ void DirectLink::publishSensors() {
   if (tick_ % kCloudTicks == 0) emit cloud(world_->cloud(robot_.status(), kCloudColumns));
   if (tick_ % kPictureTicks == 0) emit image(world_->picture(robot_.now(), tick_));
   if (robot_.thermal() != shown_thermal_) emit thermal(shown_thermal_ = robot_.thermal());
-  if (robot_.stream() != shown_stream_)
-    emit missionStream(shown_stream_ = robot_.stream());
+  if (robot_.stream() != shown_stream_) emit missionStream(shown_stream_ = robot_.stream());
 }
 
 void DirectLink::publishHealth() {

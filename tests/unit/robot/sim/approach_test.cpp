@@ -139,7 +139,8 @@ TEST(Approach, StopsDownhillWithinTheDistanceOfTheScenario) {
   const double from = x(w);
   w.stop.set("test", w.world->now());
   w.run(2.0);
-  // v^2 / (2 x 1.8 m/s^2), the ramp-in of that deceleration (1.8 / 20 s, half of it lost), one tick.
+  // v^2 / (2 x 1.8 m/s^2), the ramp-in of that deceleration (1.8 / 20 s, half of it lost), one
+  // tick.
   EXPECT_LT(from - x(w), speed * speed / 3.6 + 0.045 * speed + 0.03);
   EXPECT_TRUE(w.controller.tracking().at_rest);
 }

@@ -50,8 +50,9 @@ TEST_F(ThermalTest, OpeningCutsThePlateOffWhenSeenAslant) {
   EXPECT_LT(aslant, 3 * straight / 4);
 }
 
-// 30 deg off axis at 1 m the opening's shadow on the plate is a disc of 8.5 cm radius, 6.5 cm aside:
-// it leaves a lens of 56 % of the plate (a square opening would leave 66 %), foreshortened by 0.87.
+// 30 deg off axis at 1 m the opening's shadow on the plate is a disc of 8.5 cm radius, 6.5 cm
+// aside: it leaves a lens of 56 % of the plate (a square opening would leave 66 %), foreshortened
+// by 0.87.
 TEST_F(ThermalTest, TheOpeningIsRound) {
   const int straight = warmerThan(*look(1.0, 0.0, 125.0), 75.0);
   const int aslant = warmerThan(*look(1.0, M_PI / 6, 125.0), 75.0);

@@ -21,9 +21,7 @@ inline ArenaMap loadKitchen() {
   EXPECT_TRUE(loaded.has_value()) << loaded.error();
   return arena;
 }
-inline std::vector<BoxConfig> kitchenBoxes(const ArenaMap& arena) {
-  return obstacles(arena);
-}
+inline std::vector<BoxConfig> kitchenBoxes(const ArenaMap& arena) { return obstacles(arena); }
 /// Flange pose in base at which the thermal camera stands at p and looks along base X, upright.
 inline Eigen::Isometry3d flangeForCamera(const RobotGeometry& robot,
                                          const Eigen::Vector3d& p_base) {
