@@ -20,6 +20,7 @@ constexpr double kZoomStep = 1.3;
 constexpr double kMinSpan_s = 20.0;
 constexpr double kMaxSpan_s = 900.0;
 constexpr double kDefaultSpan_s = 180.0;
+constexpr std::size_t kMostPlots = 3;  // of a mission; lower rows could not be read
 }  // namespace
 
 TimelineView::TimelineView(const Ui& ui, StationModels& models, QWidget* parent)
@@ -52,7 +53,7 @@ void TimelineView::paintEvent(QPaintEvent*) {
   plot_ = QRectF(kLabel_px, 0, width() - kLabel_px - kRight_px, height() - kAxis_px);
   std::vector<const FigureSpec*> plotted;
   for (const FigureSpec& spec : models_.mission.info().figures)
-    if (spec.plot) plotted.push_back(&spec);
+    if (spec.plot && plotted.size() < kMostPlots) plotted.push_back(&spec);
   const double h = plot_.height() / (4.0 + static_cast<double>(plotted.size()));
   int i = 0;
   const auto row = [&](const QString& title) {

@@ -23,6 +23,7 @@ constexpr double kBatteryFull_v = 29.6;
 constexpr double kSlowLink_s = 0.150;
 constexpr double kVerySlowLink_s = 0.300;
 constexpr double kClockLow_s = 60.0;
+constexpr std::size_t kMostFigures = 4;  // of a mission; the bar has no room for more
 
 QString clockText(double s) {
   const int whole = static_cast<int>(s);
@@ -89,7 +90,7 @@ void TopBar::makeMissionFigures() {
   mission_.clear();
   auto* row = static_cast<QHBoxLayout*>(layout());
   for (const FigureSpec& spec : models_.mission.info().figures) {
-    if (!spec.top_bar) continue;
+    if (!spec.top_bar || mission_.size() == kMostFigures) continue;
     const QString name = QString::fromStdString(spec.label) + (spec.estimated ? tr(" est.") : "");
     const double widest = spec.high > spec.low ? spec.high : 8.8;
     auto* view = new Figure(ui_, name, valueText(spec, widest), this);

@@ -65,6 +65,13 @@ TEST_F(ToyWindow, ItsCardOpensByItsKeyAndSendsItsCommand) {
   EXPECT_EQ(std::get<MissionCommand>(link.sent[0]).name, toy::kPush);
 }
 
+TEST_F(ToyWindow, ARobotThatDeclaresTooMuchLeavesTheTopBarReadable) {
+  MissionInfo info = toy::missionInfo();
+  info.figures.assign(400, info.figures.front());
+  tell(info);
+  EXPECT_EQ(window.topBar()->missionFigures().size(), 4);
+}
+
 TEST_F(ToyWindow, AnotherMissionTakesThePanelsWithIt) {
   tell(toy::missionInfo());
   MissionInfo other;
