@@ -66,8 +66,9 @@ std::string judge(const RoomTable& table, const std::string& path, const std::st
 
 }  // namespace
 
-Result<RoomTable> RoomTable::parse(const std::string& text) {
-  RoomTable table;
+Result<std::map<std::string, std::set<std::string>>> parseTable(const std::string& text,
+                                                                const std::string& file) {
+  std::map<std::string, std::set<std::string>> table;
   std::istringstream lines(text);
   std::string line;
   for (int number = 1; std::getline(lines, line); ++number) {
@@ -75,11 +76,18 @@ Result<RoomTable> RoomTable::parse(const std::string& text) {
     if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
     const std::size_t colon = line.find(':');
     if (colon == std::string::npos)
-      return makeError(ErrorCode::InvalidInput, "rooms.txt:{}: no colon", number);
-    std::istringstream rooms(line.substr(colon + 1));
-    auto& allowed = table.allowed[line.substr(0, colon)];
-    for (std::string room; rooms >> room;) allowed.insert(room);
+      return makeError(ErrorCode::InvalidInput, "{}:{}: no colon", file, number);
+    std::istringstream words(line.substr(colon + 1));
+    auto& row = table[line.substr(0, colon)];
+    for (std::string word; words >> word;) row.insert(word);
   }
+  return table;
+}
+
+Result<RoomTable> RoomTable::parse(const std::string& text) {
+  auto rows = parseTable(text, "rooms.txt");
+  if (!rows) return tl::make_unexpected(rows.error());
+  RoomTable table{std::move(*rows)};
   bool grew = true;
   while (grew) {
     grew = false;

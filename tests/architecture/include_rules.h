@@ -10,6 +10,11 @@
 
 namespace kiln::architecture {
 
+/// "name: a b" lines; `#` starts a comment. Error: a line without colon, named by `file` and
+/// number.
+[[nodiscard]] Result<std::map<std::string, std::set<std::string>>> parseTable(
+    const std::string& text, const std::string& file);
+
 /// The table of rooms, closed over what each allowed room may include itself.
 struct RoomTable {
   std::map<std::string, std::set<std::string>> allowed;

@@ -4,16 +4,12 @@
 #include <fstream>
 #include <regex>
 #include <sstream>
+#include <utility>
+
+#include "tests/architecture/include_rules.h"
 
 namespace kiln::architecture {
 namespace {
-
-std::set<std::string> wordsOf(const std::string& line) {
-  std::istringstream in(line);
-  std::set<std::string> out;
-  for (std::string word; in >> word;) out.insert(word);
-  return out;
-}
 
 /// Without comment, and without texts but the paths of includes.
 std::string codeOf(const std::string& line) {
@@ -88,21 +84,12 @@ std::string read(const std::filesystem::path& path) {
 }  // namespace
 
 Result<WordTable> WordTable::parse(const std::string& text) {
+  auto rows = parseTable(text, "words.txt");
+  if (!rows) return tl::make_unexpected(rows.error());
   WordTable table;
-  std::istringstream lines(text);
-  std::string line;
-  for (int number = 1; std::getline(lines, line); ++number) {
-    line = line.substr(0, line.find('#'));
-    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
-    const std::size_t colon = line.find(':');
-    if (colon == std::string::npos)
-      return makeError(ErrorCode::InvalidInput, "words.txt:{}: no colon", number);
-    const std::string room = line.substr(0, colon);
-    if (room == "words")
-      table.words = wordsOf(line.substr(colon + 1));
-    else
-      table.exempt[room] = wordsOf(line.substr(colon + 1));
-  }
+  table.words = std::exchange((*rows)["words"], {});
+  rows->erase("words");
+  table.exempt = std::move(*rows);
   if (table.words.empty()) return makeError(ErrorCode::InvalidInput, "words.txt: no 'words:'");
   for (const auto& [room, words] : table.exempt)
     for (const std::string& word : words)
