@@ -10,6 +10,7 @@ namespace {
 
 constexpr std::size_t kMaxInfoBytes = 256u << 10;
 constexpr std::size_t kMaxDetailBytes = 1u << 20;
+constexpr int kMaxRows = 64;  // of layers, commands, actuators and panels
 
 void toProto(const FigureSpec& spec, v1::FigureSpec& out) {
   out.set_id(validUtf8(spec.id));
@@ -133,6 +134,14 @@ Result<MissionInfo> decodeMissionInfo(std::string_view bytes) {
   if (in->figures_size() > kMaxFigures)
     return makeError(ErrorCode::InvalidInput, "mission info: {} figures are more than {}; dropped",
                      in->figures_size(), kMaxFigures);
+  for (const int rows :
+       {in->layers_size(), in->commands_size(), in->actuators_size(), in->panels_size()}) {
+    if (rows > kMaxRows)
+      return makeError(ErrorCode::InvalidInput,
+                       "mission info: {} layers, commands, actuators or panels are more than {}; "
+                       "dropped",
+                       rows, kMaxRows);
+  }
   MissionInfo info;
   info.mission = printableName(in->mission());
   info.mission_uuid = printableName(in->mission_uuid());

@@ -29,9 +29,11 @@ void MissionPanels::refresh() {
   if (wanted == shown_) return;
   clear();
   shown_ = wanted;
-  for (const std::string& id : wanted) {
+  for (auto row = wanted.begin(); row != wanted.end(); ++row) {
+    const std::string& id = *row;
+    if (std::find(wanted.begin(), row, id) != row) continue;  // named twice
     const auto kind = std::find_if(catalog_.begin(), catalog_.end(),
-                                   [&](const PanelKind& row) { return row.id == id; });
+                                   [&](const PanelKind& known) { return known.id == id; });
     if (kind != catalog_.end()) {
       add(*kind);
     } else {

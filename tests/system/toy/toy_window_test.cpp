@@ -68,7 +68,9 @@ TEST_F(ToyWindow, ItsCardOpensByItsKeyAndSendsItsCommand) {
 TEST_F(ToyWindow, ARobotThatDeclaresTooMuchLeavesTheTopBarReadable) {
   MissionInfo info = toy::missionInfo();
   info.figures.assign(400, info.figures.front());
+  info.panels.assign(40, info.panels.front());
   tell(info);
+  EXPECT_EQ(window.sceneTile()->cards().size(), 1u) << "a panel that is named twice is one";
   EXPECT_EQ(window.topBar()->missionFigures().size(), 4);
 }
 

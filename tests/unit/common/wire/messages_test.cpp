@@ -193,6 +193,17 @@ TEST(Messages, WhatAMissionBringsComesBack) {
   EXPECT_EQ(figureText(info.figures[1], std::nan("")), "–");
 }
 
+TEST(Messages, AMissionThatBringsTooMuchIsRefused) {
+  MissionInfo info;
+  info.panels.assign(64, "fire.thermal");
+  EXPECT_TRUE(decodeMissionInfo(encode(info)));
+  info.panels.resize(65);
+  EXPECT_FALSE(decodeMissionInfo(encode(info)));
+  info.panels.clear();
+  info.figures.resize(501);
+  EXPECT_FALSE(decodeMissionInfo(encode(info)));
+}
+
 TEST(Messages, LocalizationComesBackWithWhatIsUnknown) {
   LocalizationStatus status;
   status.health = LocalizationHealth::Degraded;
