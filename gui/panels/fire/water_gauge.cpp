@@ -14,7 +14,7 @@ WaterGauge::WaterGauge(const Ui& ui, Config config, QWidget* parent)
   connect(&ui_.theme, &Theme::changed, this, qOverload<>(&QWidget::update));
 }
 
-QSize WaterGauge::sizeHint() const { return {240, 3 * kRow_px + 2}; }
+QSize WaterGauge::sizeHint() const { return {240, 4 * kRow_px + 2}; }  // a warning takes two
 
 void WaterGauge::show(const WaterLevels& water, bool known) {
   water_ = water;
@@ -72,11 +72,11 @@ void WaterGauge::paintEvent(QPaintEvent*) {
   painter.setFont(ui_.theme.font(TextRole::Small));
   for (std::size_t side = 0; side < 2; ++side)
     paintTank(painter, QRectF(0, static_cast<double>(side) * kRow_px, width(), kRow_px), side);
-  const QRectF last(0, 2 * kRow_px, width(), kRow_px);
+  const QRectF last(0, 2 * kRow_px, width(), 2 * kRow_px);
   const QString why = warning();
   painter.setPen(why.isEmpty() ? p.dim : p.caution);
   painter.drawText(
-      last, Qt::AlignLeft | Qt::AlignVCenter,
+      last, Qt::AlignLeft | Qt::AlignTop | Qt::TextWordWrap,
       why.isEmpty() ? tr("sprayed in this mission est. %1 l").arg(water_.sprayed_l_est, 0, 'f', 2)
                     : QStringLiteral("▲ ") + why);
 }
