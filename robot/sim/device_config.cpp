@@ -33,6 +33,8 @@ void ArmDeviceConfig::visit(ConfigArchive& a) {
   a.field("rotor_inertia_kgm2", rotor_inertia_kgm2, "kg m2", 0.001, 20,
           "at the joint, joints 1 to 6");
   a.field("head_kg", head_kg, "kg", 0.1, 12.5, "end-effector with sensors");
+  a.field("head_off_kg", head_off_kg, "kg", 0, 2, "its weight, uniform +-, by seed");
+  a.field("head_off_m", head_off_m, "m", 0, 0.1, "its centre of mass, uniform +-, by seed");
   a.field("watchdog_s", watchdog_s, "s", 0.01, 10, "hold so long after the last servo target");
   a.field("hold_decel_radps2", hold_decel_radps2, "rad/s2", 0.1, 100,
           "deceleration of hold and protective stop");
@@ -41,6 +43,9 @@ void ArmDeviceConfig::visit(ConfigArchive& a) {
   a.field("force_filter_s", force_filter_s, "s", 0, 1, "time constant of the force measurement");
   a.field("force_noise_n", force_noise_n, "N", 0, 100, "rms a axis");
   a.field("torque_noise_nm", torque_noise_nm, "Nm", 0, 100, "rms a axis");
+  a.field("force_offset_n", force_offset_n, "N", 0, 100, "uniform +-, a axis, until it is zeroed");
+  a.field("force_drift_n", force_drift_n, "N", 0, 100, "of the force sensor in ten minutes");
+  a.field("max_payload_kg", max_payload_kg, "kg", 0.1, 50, "more is refused");
   a.field("speed_tolerance", speed_tolerance, "", 1, 10,
           "refuse targets that need more than this times the limit");
   a.field("position_slack_rad", position_slack_rad, "rad", 0, 1, "jump that is always allowed");

@@ -131,6 +131,10 @@ TrueRobot drawRobot(const WorldConfig& config, const RobotGeometry& robot, std::
   out.X_flange_nozzle = perturbedMount(robot.X_flange_nozzle.pose(), config.perturbation, random);
   out.X_base_operatorcamera =
       perturbedMount(robot.X_base_operatorcamera.pose(), config.perturbation, random);
+  Random head(seed, "head");
+  out.head_kg = config.arm.head_kg + head.uniform(-config.arm.head_off_kg, config.arm.head_off_kg);
+  for (double& v : out.p_flange_head)
+    v += head.uniform(-config.arm.head_off_m, config.arm.head_off_m);
   return out;
 }
 

@@ -37,7 +37,7 @@ struct World::Impl {
         arena(TrueArena::draw(c, map, r, s)),
         step(fromSeconds(c.physics.step_s)),
         faults(c.faults),
-        arm(c.arm, r, s),
+        arm(c.arm, r, arena.robot, s),
         base(c.base, r, arena.robot),
         pumps(c.water, s),
         jet(c.water, arena.fire_places, s),
@@ -159,7 +159,7 @@ void World::Impl::stepOnce() {
   base.control(now, dt, *physics);
   physics->step();
   now += step;
-  arm.sense(dt, *physics);
+  arm.sense(now, dt, *physics);
   collisions.observe(now, physics->contacts());
   noticeFall();
   stepWater();
@@ -199,6 +199,8 @@ void World::command(const WorldCommands& c) {
     if (!why.empty()) w.refused = std::move(why);
   };
   if (c.sensors) w.sensors.request(*c.sensors);
+  if (c.payload) note(w.arm.setPayload(*c.payload));
+  if (c.zero_force) w.arm.zeroForceSensor();
   if (c.release_protective_stop) {
     w.arm.releaseProtectiveStop();
     w.refused.clear();

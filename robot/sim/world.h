@@ -26,6 +26,8 @@ struct WorldCommands {
   std::optional<WheelCommands> base;
   std::optional<std::array<double, 2>> pumps;
   std::optional<SensorRequest> sensors;
+  std::optional<ArmPayload> payload;
+  bool zero_force = false;
   bool release_protective_stop = false;
   bool request_reset = false;
 };

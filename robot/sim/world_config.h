@@ -46,11 +46,15 @@ struct ArmDeviceConfig {
   std::vector<double> rotor_inertia_kgm2{2.0, 2.0, 1.0,
                                          0.2, 0.2, 0.2};  ///< at the joint, estimated
   double head_kg = 5.0;                                   ///< end-effector with sensors
+  double head_off_kg = 0.1, head_off_m = 0.005;           ///< uniform, +-, by seed
   double watchdog_s = 0.2;
   double hold_decel_radps2 = 10.0;  ///< decelerates and holds
   double protective_force_n = 150.0;
   double force_filter_s = 0.02;  ///< of the force measurement
   double force_noise_n = 1.0, torque_noise_nm = 0.05;
+  double force_offset_n = 5.0;   ///< uniform, +-, per axis and seed: before it is zeroed
+  double force_drift_n = 2.0;    ///< in ten minutes, in a direction by seed
+  double max_payload_kg = 12.5;  ///< vendor; more is refused
   double speed_tolerance =
       1.2;  ///< a target that needs more than this times the speed limit is refused
   double position_slack_rad = 0.02;  ///< jump that is always allowed

@@ -48,6 +48,8 @@ class SimArm final : public Arm {
   [[nodiscard]] std::optional<ArmState> state() const override { return latest.peek(); }
   Result<void> servo(const ArmServo& target) override;
   Result<void> releaseProtectiveStop() override;
+  Result<void> setPayload(const ArmPayload& payload) override;
+  Result<void> zeroForceSensor() override;
   LatestValue<ArmState> latest;
 
  private:
