@@ -31,6 +31,7 @@ struct AbsentDevices {
   } pumps;
   struct AbsentArena final : Arena {
     Result<void> requestReset() override { return refuse(); }
+    Result<void> startClock() override { return refuse(); }
   } arena;
 };
 

@@ -34,6 +34,7 @@ struct RecordedArena final : Arena {
   Result<void> requestReset() override {
     return makeError(ErrorCode::Refused, "this is a recording; nobody can carry the robot back");
   }
+  Result<void> startClock() override { return {}; }
 };
 
 /// Lidar, ThermalCamera or RgbCamera.

@@ -313,6 +313,8 @@ void Robot::Impl::updateReport() {
     starts_seen = host->starts();
     beginReport();
   }
+  if (belief.clock_started)
+    (void)devices.arena.startClock();  // a world that is gone hears it later
   const BaseTracking tracking = base.tracking();
   report.addTrack({tracked.stamp, tracked.X_map_base, tracking.X_odom_base,
                    tracked.health != PoseHealth::Lost, localizer.submap() == Submap::Indoor,

@@ -127,6 +127,7 @@ void FireConfig::visit(ConfigArchive& a) {
   a.field("ambient_c", ambient_c, "degC", -40, 80, "plate before it is lit");
   a.field("rise_k", rise_k, "K", 0, 1000, "plate: ambient + rise (1 - exp(-t / time constant))");
   a.field("time_constant_s", time_constant_s, "s", 0.1, 1e4, "of the plate");
+  a.field("lit_at_start", lit_at_start, "with the world's time, not with the mission's clock");
   a.field("flame_c", flame_c, "degC", -40, 500, "moving silk");
   a.field("reflection_min_c", reflection_min_c, "degC", -40, 500,
           "mirror image of the hot plate, coolest by seed");

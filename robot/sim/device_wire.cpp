@@ -78,6 +78,7 @@ Result<WorldCommands> fromProto(const v1::device::Advance& m) {
                            {m.payload().com_m(0), m.payload().com_m(1), m.payload().com_m(2)}};
   }
   c.zero_force = m.zero_force();
+  c.start_clock = m.start_clock();
   c.release_protective_stop = m.release_protective_stop();
   c.request_reset = m.request_reset();
   return c;

@@ -45,7 +45,9 @@ struct World::Impl {
         collisions(c.collision_force_n),
         disturbances(arena, r, s),
         sensors(c, arena, r, wet, s, options.render_colour),
-        obstacle(robot) {}
+        obstacle(robot) {
+    if (c.fire.lit_at_start) lit = now;
+  }
 
   void carryToStart();
   void stepOnce();
@@ -54,8 +56,10 @@ struct World::Impl {
   void noticeFall();
   [[nodiscard]] SceneState scene() const;
   [[nodiscard]] double plate() const {
+    if (!lit) return config.fire.ambient_c;
+    const double burns_s = toSeconds(now - *lit);
     return config.fire.ambient_c +
-           config.fire.rise_k * (1.0 - std::exp(-toSeconds(now) / config.fire.time_constant_s));
+           config.fire.rise_k * (1.0 - std::exp(-burns_s / config.fire.time_constant_s));
   }
   [[nodiscard]] Eigen::Isometry3d X_map_flange() const {
     return physics->X_map_base() * robot.X_base_flange(physics->armPosition());
@@ -80,6 +84,7 @@ struct World::Impl {
   ArmObstacle obstacle;
   bool protective_stop_done = false;
   std::optional<Stamp> fell;
+  std::optional<Stamp> lit;  ///< the burning plate
   std::uint32_t resets = 0;
   std::vector<Pose2> starts;
   std::uint64_t seq = 0;
@@ -209,6 +214,7 @@ void World::command(const WorldCommands& c) {
     ++w.resets;
     w.carryToStart();
   }
+  if (c.start_clock && !w.lit) w.lit = w.now;
   if (c.arm) note(w.arm.servo(w.now, c.arm->q, c.arm->qd, c.arm_sent));
   if (c.base) note(w.base.write(w.now, *c.base));
   if (c.pumps) note(w.pumps.write(w.now, *c.pumps));

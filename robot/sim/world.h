@@ -30,6 +30,7 @@ struct WorldCommands {
   bool zero_force = false;
   bool release_protective_stop = false;
   bool request_reset = false;
+  bool start_clock = false;  ///< of the mission; the first one counts
 };
 
 /// What the devices report, and the sensor frames finished since the last report. No truth.

@@ -130,6 +130,7 @@ struct PerturbationConfig {
 struct FireConfig {
   double ambient_c = 25.0, rise_k = 105.0,
          time_constant_s = 60.0;  ///< T = ambient + rise (1 - exp(-t / constant))
+  bool lit_at_start = false;      ///< of the world, instead of the mission's clock
   double flame_c = 38.0;
   double reflection_min_c = 45.0,
          reflection_max_c = 70.0;  ///< mirror image of the hot plate in the acrylic

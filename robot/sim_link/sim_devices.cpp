@@ -85,6 +85,13 @@ Result<void> SimArena::requestReset() {
   return outbox_.put([](v1::device::Advance& m) { m.set_request_reset(true); });
 }
 
+Result<void> SimArena::startClock() {
+  if (clock_told_) return {};
+  auto put = outbox_.put([](v1::device::Advance& m) { m.set_start_clock(true); });
+  if (put) clock_told_ = true;
+  return put;
+}
+
 void SensorSwitch::fill(v1::device::Advance& m) const {
   m.mutable_sensors()->set_lidar(on_[kLidar]);
   m.mutable_sensors()->set_thermal(on_[kThermal]);

@@ -83,9 +83,13 @@ class SimArena final : public Arena {
  public:
   explicit SimArena(Outbox& outbox) : outbox_(outbox) {}
   Result<void> requestReset() override;
+  Result<void> startClock() override;
+  /// After a (re)connect: the world may be another one.
+  void forget() { clock_told_ = false; }
 
  private:
   Outbox& outbox_;
+  std::atomic<bool> clock_told_{false};
 };
 
 /// Which sensors run, as one message; shared by the three sensors below. Thread-safe.

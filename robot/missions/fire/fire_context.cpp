@@ -20,6 +20,7 @@ FireContext::FireContext(const FireDevices& fire_devices, const FireConfig& fire
       calibration(fire_devices.spray_calibration),
       belief(initialFireBelief(fire_devices.arena)),
       heat(fire_devices.heat),
+      warming(fire_config.search.warming),
       look(fire_config.search.motion, fire_devices.robot, fire_devices.arm),
       drive(fire_devices.robot, fire_devices.base, fire_devices.arm, fire_devices.arm_device,
             fire_config.drive.stow_tolerance_deg * kDeg) {}

@@ -100,6 +100,22 @@ TEST_F(WorldTest, NobodyBrakesTheBaseHarderThanItsDrivesCan) {
   EXPECT_NEAR(after, before - 0.5, 0.03) << "2 m/s^2 for 0.25 s; the speed loop lags a little";
 }
 
+TEST_F(WorldTest, ThePlateIsLitByTheMissionsClockOnceAndForAll) {
+  const auto world = make();
+  const auto plateAfter = [&](double seconds, const WorldCommands& commands) {
+    world->command(commands);
+    (void)world->advance(world->now() + fromSeconds(seconds));
+    return world->truth().plate_c;
+  };
+  WorldCommands start, reset;
+  start.start_clock = true;
+  reset.request_reset = true;
+  EXPECT_EQ(plateAfter(5.0, {}), 25.0) << "nobody has started the clock";
+  EXPECT_NEAR(plateAfter(6.0, start), 25.0 + 105.0 * (1.0 - std::exp(-0.1)), 0.1);
+  EXPECT_NEAR(plateAfter(6.0, start), 25.0 + 105.0 * (1.0 - std::exp(-0.2)), 0.1) << "a resume";
+  EXPECT_NEAR(plateAfter(6.0, reset), 25.0 + 105.0 * (1.0 - std::exp(-0.3)), 0.1);
+}
+
 TEST_F(WorldTest, ArmTracksASmoothMotionAndHoldsAfterIt) {
   const auto world = make();
   const Vector6d from = RobotGeometry::radians(world->robot().q_park_deg);
