@@ -61,6 +61,7 @@ std::string ArmDevice::refusal(double since_s, const Vector6d& q, const Vector6d
 
 std::string ArmDevice::servo(Stamp now, const Vector6d& q, const Vector6d& qd,
                              std::optional<Stamp> sent) {
+  if (!powered_) return "servo target ignored: no power";
   if (stopped_) return "servo target ignored: protective stop";
   Duration since = now - target_time_;
   if (sent && target_sent_) since = std::max(since, *sent - *target_sent_);
@@ -78,6 +79,11 @@ std::string ArmDevice::servo(Stamp now, const Vector6d& q, const Vector6d& qd,
 }
 
 void ArmDevice::releaseProtectiveStop() { stopped_ = false; }
+
+void ArmDevice::setPowered(bool powered) {
+  powered_ = powered;
+  if (!powered) following_ = false;
+}
 
 void ArmDevice::protectiveStop() {
   stopped_ = true;
@@ -174,7 +180,8 @@ void ArmDevice::sense(Stamp now, double step_s, const Physics& physics) {
   const Vector6d wrench = contactWrench(physics) + uncompensatedLoad(step_s, physics);
   const double alpha = step_s / (config_.force_filter_s + step_s);
   wrench_ += alpha * (wrench - wrench_);
-  if (wrench_.head<3>().norm() > config_.protective_force_n) protectiveStop();
+  if (wrench_.head<3>().norm() > (reduced_ ? config_.reduced_force_n : config_.protective_force_n))
+    protectiveStop();
   R_armbase_flange_ = robot_.arm.forward(physics.armPosition()).linear();
   sensor_error_n_ = sensorError(now);
 }
@@ -194,7 +201,10 @@ ArmState ArmDevice::report(Stamp now, const Physics& physics) {
   state.wrench_tool.tail<3>() -= R_armbase_flange_ * zero_flange_.tail<3>();
   for (int i = 0; i < 6; ++i)
     state.wrench_tool[i] += noise_.normal(i < 3 ? config_.force_noise_n : config_.torque_noise_nm);
-  state.safety = stopped_ ? ArmSafetyMode::ProtectiveStop : ArmSafetyMode::Normal;
+  state.safety = stopped_   ? ArmSafetyMode::ProtectiveStop
+                 : reduced_ ? ArmSafetyMode::Reduced
+                            : ArmSafetyMode::Normal;
+  state.powered = powered_;
   return state;
 }
 

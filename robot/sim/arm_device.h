@@ -32,6 +32,10 @@ class ArmDevice {
   void zeroForceSensor();
   void releaseProtectiveStop();
   void protectiveStop();
+  /// In a reduced zone less force ends in a protective stop.
+  void setReduced(bool reduced) { reduced_ = reduced; }
+  /// Without power the brakes hold and targets are refused.
+  void setPowered(bool powered);
   /// The robot was carried to its start: hold there, no stop latched. Targets that were under way
   /// then belong to another posture; for ArmDeviceConfig::carry_grace_s those that do not fit are
   /// dropped and not taken for a jump.
@@ -60,7 +64,7 @@ class ArmDevice {
   Stamp target_time_;
   std::optional<Stamp> target_sent_, carried_;
   bool following_ = false;
-  bool stopped_ = false;
+  bool stopped_ = false, reduced_ = false, powered_ = true;
   double head_kg_;
   Eigen::Vector3d p_flange_head_;
   ArmPayload payload_;  ///< as told

@@ -151,6 +151,12 @@ void writeArmLink(Writer& w, const WorldConfig& config, const RobotGeometry& rob
   w.line(
       R"(<geom name="arm link {}" type="capsule" size="{:.6g}" fromto="0 0 0 {:.6g} 0 {:.6g}" {}/>)",
       i + 1, 0.95 * robot.link_radius_m[i], k.a[i], k.d[i], kRobotBits);
+  if (i != 1 && i != 2) return;
+  // The hose runs along upper arm and forearm.
+  const double beside = 0.95 * robot.link_radius_m[i] + kHoseGap_m;
+  w.line(
+      R"(<geom name="hose {}" type="capsule" size="{:.6g}" fromto="0 0 {:.6g} {:.6g} 0 {:.6g}" {} mass="0"/>)",
+      i + 1, kHoseRadius_m, beside, k.a[i], k.d[i] + beside, kRobotBits);
 }
 
 void writeHead(Writer& w, const TrueArena& arena, const RobotGeometry& robot) {

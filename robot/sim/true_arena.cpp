@@ -182,6 +182,20 @@ TrueArena TrueArena::draw(const WorldConfig& config, const ArenaMap& nominal,
   return arena;
 }
 
+Eigen::AlignedBox2d TrueArena::buildingZone(double around_m) const {
+  Eigen::AlignedBox2d zone;
+  for (const SolidBox& b : boxes) {
+    if (b.material != Material::Wall) continue;
+    for (const double x : {-0.5, 0.5}) {
+      for (const double y : {-0.5, 0.5})
+        zone.extend((b.X_map_box * b.size_m.cwiseProduct(Eigen::Vector3d(x, y, 0))).head<2>());
+    }
+  }
+  if (zone.isEmpty()) return zone;
+  const Eigen::Vector2d around = Eigen::Vector2d::Constant(around_m);
+  return {zone.min() - around, zone.max() + around};
+}
+
 Pose2 drawStart(const PerturbationConfig& config, const Pose2& nominal, std::uint64_t seed,
                 std::uint32_t count) {
   Random random(seed, "start " + std::to_string(count));

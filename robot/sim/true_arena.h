@@ -80,6 +80,8 @@ struct TrueArena {
   TrueRobot robot;
   Pose2 nominal_start;
 
+  /// Footprint of the building and so much around it, in map: all walls together.
+  [[nodiscard]] Eigen::AlignedBox2d buildingZone(double around_m) const;
   [[nodiscard]] static TrueArena draw(const WorldConfig& config, const ArenaMap& nominal,
                                       const RobotGeometry& robot, std::uint64_t seed);
 };

@@ -38,14 +38,15 @@ struct World::Impl {
         step(fromSeconds(c.physics.step_s)),
         faults(c.faults),
         arm(c.arm, r, arena.robot, s),
-        base(c.base, r, arena.robot),
+        base(c.base, r, arena.robot, s),
         pumps(c.water, s),
         jet(c.water, arena.fire_places, s),
         wet(c.warm_boards, arena),
         collisions(c.collision_force_n),
         disturbances(arena, r, s),
         sensors(c, arena, r, wet, s, options.render_colour),
-        obstacle(robot) {
+        obstacle(robot),
+        reduced_zone(arena.buildingZone(c.arm.reduced_zone_m)) {
     if (c.fire.lit_at_start) lit = now;
   }
 
@@ -82,6 +83,7 @@ struct World::Impl {
   Disturbances disturbances;
   SensorSuite sensors;
   ArmObstacle obstacle;
+  Eigen::AlignedBox2d reduced_zone;
   bool protective_stop_done = false;
   std::optional<Stamp> fell;
   std::optional<Stamp> lit;  ///< the burning plate
@@ -160,6 +162,9 @@ void World::Impl::stepWater() {
 void World::Impl::stepOnce() {
   const double dt = toSeconds(step);
   applyFaults();
+  const Eigen::Vector3d p_map_tool = X_map_flange() * robot.X_flange_tool.pose().translation();
+  arm.setReduced(reduced_zone.contains(Eigen::Vector2d(p_map_tool.head<2>())));
+  arm.setPowered(!base.batteryEmpty());
   arm.control(now, dt, *physics);
   base.control(now, dt, *physics);
   physics->step();

@@ -50,8 +50,9 @@ TEST_F(ThermalTest, OpeningCutsThePlateOffWhenSeenAslant) {
   EXPECT_LT(aslant, 3 * straight / 4);
 }
 
-// 30 deg off axis at 1 m the opening's shadow on the plate is a disc of 8.5 cm radius, 6.5 cm aside:
-// it leaves a lens of 56 % of the plate (a square opening would leave 66 %), foreshortened by 0.87.
+// 30 deg off axis at 1 m the opening's shadow on the plate is a disc of 8.5 cm radius, 6.5 cm
+// aside: it leaves a lens of 56 % of the plate (a square opening would leave 66 %), foreshortened
+// by 0.87.
 TEST_F(ThermalTest, TheOpeningIsRound) {
   const int straight = warmerThan(*look(1.0, 0.0, 125.0), 75.0);
   const int aslant = warmerThan(*look(1.0, M_PI / 6, 125.0), 75.0);
@@ -192,6 +193,26 @@ TEST_F(LidarTest, PointsCarryRisingTimesWithinOneTurn) {
     if (std::fabs(cloud->time_offset_s[i] - 0.025F) > 5e-4F) continue;
     EXPECT_GT(cloud->y[i], 0.0F);
   }
+}
+
+/// A box of 20 cm, 55 cm before a wall and 2 m before the LiDAR, which rises by the 7 cm between
+/// two of its lasers: each of them crosses the upper edge once, with a footprint of 4 mm.
+TEST_F(LidarTest, AHorizontalEdgeBetweenTwoLasersMakesMixedPixelsToo) {
+  world.config.lidar.dropout = world.config.lidar.noise_sigma_m = 0.0;
+  world.config.lidar.bias_sigma_m = 0.0;
+  world.state.obstacle = Eigen::Vector3d(13.45, 1.5, 1.0);
+  int between = 0;
+  for (int step = 0; step < 60; ++step) {
+    world.putFlangePart(world.arena.robot.X_flange_lidar,
+                        makePose({11.35, 1.5, 1.0 + 0.0012 * step}, {0, 0, 0}));
+    LidarSensor sensor(world.config.lidar, world.robot, world.arena.robot, 1);
+    const auto cloud = scan(sensor);
+    for (std::size_t i = 0; i < cloud->size(); ++i) {
+      const bool at_box = cloud->x[i] > 2.05F && cloud->x[i] < 2.5F;  // not on it, not on the wall
+      between += at_box && std::fabs(cloud->y[i]) < 0.07F ? 1 : 0;    // its sides are at 0.1 m
+    }
+  }
+  EXPECT_GT(between, 50);
 }
 
 TEST_F(LidarTest, AcrylicReturnsAFewRaysOnly) {
