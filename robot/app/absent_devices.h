@@ -17,6 +17,8 @@ struct AbsentDevices {
     [[nodiscard]] std::optional<ArmState> state() const override { return std::nullopt; }
     Result<void> servo(const ArmServo&) override { return refuse(); }
     Result<void> releaseProtectiveStop() override { return refuse(); }
+    Result<void> setPayload(const ArmPayload&) override { return refuse(); }
+    Result<void> zeroForceSensor() override { return refuse(); }
   } arm;
   struct AbsentBase final : DriveBase {
     [[nodiscard]] std::optional<BaseState> state() const override { return std::nullopt; }

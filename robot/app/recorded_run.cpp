@@ -16,6 +16,8 @@ struct RecordedArm final : Arm {
   [[nodiscard]] std::optional<ArmState> state() const override { return latest; }
   Result<void> servo(const ArmServo&) override { return {}; }
   Result<void> releaseProtectiveStop() override { return {}; }
+  Result<void> setPayload(const ArmPayload&) override { return {}; }
+  Result<void> zeroForceSensor() override { return {}; }
   std::optional<ArmState> latest;
 };
 struct RecordedBase final : DriveBase {

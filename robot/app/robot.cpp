@@ -60,6 +60,7 @@ struct Robot::Impl {
   void processPerception(Stamp now);
   void checkPosition(Stamp now);
   void updateBelief(Stamp now);
+  void startArenaClock();
   void updateReport();
   void beginReport();
   [[nodiscard]] GateSituation gateSituation(Stamp now) const;
@@ -82,6 +83,7 @@ void Robot::Impl::missionTick(Stamp now) {
   updateBelief(now);
   mission.host().goOnWhenAllowed(desk.control().situation(now), now);
   desk.control().step(now);
+  startArenaClock();
   updateReport();
   reporting.raiseAlarms(now);
   reporting.publish(now);
@@ -127,6 +129,12 @@ void Robot::Impl::checkPosition(Stamp now) {
 void Robot::Impl::updateBelief(Stamp now) {
   body.belief.X_map_base = localization.pose();
   body.belief.pose_stamp = now;
+}
+
+/// Said again each tick: an arena that was away hears it later.
+void Robot::Impl::startArenaClock() {
+  if (body.belief.clock_started && body.devices.arena != nullptr)
+    (void)body.devices.arena->startClock();
 }
 
 /// A mission has begun, here or before a restart of the program.

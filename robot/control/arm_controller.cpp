@@ -19,8 +19,10 @@ constexpr double kDeg = M_PI / 180.0;
 constexpr double kMaxTick = 0.05;  // s; a longer gap is a slipped tick, not a longer step
 constexpr double kExtrapolate =
     0.06;  // s; three periods of 50 Hz setpoints, then the reference stands
-constexpr double kRestSpeed = 0.02;    // rad/s, measured
-constexpr double kCommandRest = 1e-4;  // rad/s
+constexpr double kRestSpeed = 0.02;      // rad/s, measured
+constexpr double kCommandRest = 1e-4;    // rad/s
+constexpr double kForceSettles_s = 0.2;  // payload told or zeroed: until the force shows it
+constexpr double kDeviceAway_s = 1.0;
 constexpr auto kMaxTtl = std::chrono::milliseconds(250);
 // After this long without a target the device has stopped by its own watchdog (200 ms) or is about
 // to.
@@ -45,6 +47,10 @@ void ArmController::Config::visit(ConfigArchive& a) {
   a.field("force_filter_s", force_filter_s, "s", 0.001, 0.5, "low-pass of the contact force");
   a.field("force_bias_filter_s", force_bias_filter_s, "s", 0.1, 60, "slow mean of the force");
   a.field("max_force_bias_n", max_force_bias_n, "N", 0, 50, "largest mean that is taken away");
+  a.field("payload_kg", payload_kg, "kg", 0, 12.5, "what the arm is told to carry");
+  a.field("payload_com_m", payload_com_m, "m", -1, 1, "its centre of mass in flange");
+  a.field("max_zero_force_n", max_zero_force_n, "N", 0, 100,
+          "more at rest is a contact: not zeroed");
 }
 
 struct ArmController::Impl {
@@ -87,6 +93,36 @@ struct ArmController::Impl {
       return fmt::format("arm state is {:.0f} ms old", 1e3 * age);
     }
     return "";
+  }
+
+  /// A device that was away has been switched off in between, for all that is known.
+  void setUpForceSensor(Stamp now, const ArmState& state, double dt) {
+    if (toSeconds(now - state.stamp) > kDeviceAway_s) force_sensor = ForceSensor::Unknown;
+    rest_s = commandRests() && state.qd.cwiseAbs().maxCoeff() < kRestSpeed ? rest_s + dt : 0.0;
+    switch (force_sensor) {
+      case ForceSensor::Unknown: {
+        const std::vector<double>& com = config.payload_com_m;
+        if (!arm.setPayload({config.payload_kg, {com[0], com[1], com[2]}})) return;
+        force_sensor = ForceSensor::Told;
+        rest_s = 0.0;
+        return;
+      }
+      case ForceSensor::Told:
+        if (rest_s < kForceSettles_s ||
+            !(state.wrench_tool.head<3>().norm() < config.max_zero_force_n))
+          return;
+        if (!arm.zeroForceSensor()) return;
+        force_sensor = ForceSensor::Zeroed;
+        rest_s = 0.0;
+        return;
+      case ForceSensor::Zeroed:
+        if (rest_s < kForceSettles_s) return;
+        contact.restart();
+        force_sensor = ForceSensor::Ready;
+        return;
+      case ForceSensor::Ready:
+        return;
+    }
   }
 
   [[nodiscard]] bool commandRests() const {
@@ -266,6 +302,9 @@ struct ArmController::Impl {
   bool protective = false, contact_stop = false, tracking_lost = false, refused = false;
   bool hold_seen = false;  ///< since tracking was lost
   std::string lost_text;
+  enum class ForceSensor : std::uint8_t { Unknown, Told, Zeroed, Ready };
+  ForceSensor force_sensor = ForceSensor::Unknown;
+  double rest_s = 0.0;
   std::atomic<bool> release_requested{false};
   std::optional<Stamp> last_tick, last_sent;
   mutable Mutex mutex;
@@ -303,6 +342,7 @@ void ArmController::tick(Stamp now) {
   const bool ready = blocked.empty() && !m.stop.latched();
   if (usable && m.synchronised && blocked.empty()) m.watchTrackingError(now, *state);
   if (usable && state->wrench_tool.allFinite()) {
+    m.setUpForceSensor(now, *state, dt);
     m.contact.update(state->wrench_tool.head<3>(), m.commandRests(), dt);
   }
   if (blocked.empty() && m.stop.latched()) {

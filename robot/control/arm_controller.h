@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "common/config/config_archive.h"
 #include "common/core/clock.h"
@@ -42,8 +43,9 @@ struct ArmTracking {
 /// Tracks setpoints at the servo rate with velocity, acceleration and jerk limits. Refuses NaN,
 /// out-of-limit and stale setpoints; never lets one reach the device. A protective stop of the
 /// device is latched here: only releaseProtectiveStop() ends it, and then nothing moves until a
-/// fresh setpoint comes. setpoint(), tracking() and releaseProtectiveStop() are thread-safe, tick()
-/// is confined to the control thread.
+/// fresh setpoint comes. A device that is met anew is told its payload, and its force sensor is
+/// zeroed once the arm rests without contact. setpoint(), tracking() and releaseProtectiveStop()
+/// are thread-safe, tick() is confined to the control thread.
 class ArmController {
  public:
   struct Config {
@@ -64,6 +66,9 @@ class ArmController {
     double force_filter_s = 0.02;      ///< low-pass against 1 N rms noise of the sensor
     double force_bias_filter_s = 1.0;  ///< slow mean of the force at rest, subtracted
     double max_force_bias_n = 10.0;    ///< a real contact must not be learnt away
+    double payload_kg = 5.0;           ///< head with sensors, as it was weighed
+    std::vector<double> payload_com_m{0.0, 0.0, 0.09};  ///< its centre of mass in `flange`
+    double max_zero_force_n = 25.0;  ///< more at rest is a contact: the force sensor is not zeroed
     void visit(ConfigArchive& a);
   };
   ArmController(Config config, const RobotGeometry& robot, Arm& arm, const StopLatch& stop);

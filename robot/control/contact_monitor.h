@@ -4,8 +4,8 @@
 
 namespace kiln {
 
-/// Contact force at the tool: measured force less its slow mean at rest (payload and sensor
-/// offset), low-passed against the sensor's noise of 1 N rms. Thread-compatible.
+/// Contact force at the tool: measured force less its slow mean at rest (drift of the sensor, what
+/// the payload is off), low-passed against the sensor's noise of 1 N rms. Thread-compatible.
 class ContactMonitor {
  public:
   struct Config {
@@ -17,6 +17,8 @@ class ContactMonitor {
   /// @param force_n  finite force, arm_base axes, N.
   /// @return contact force, N.
   double update(const Eigen::Vector3d& force_n, bool at_rest, double dt_s);
+  /// Forgets force and mean: the next sample seeds them anew.
+  void restart() { *this = ContactMonitor(config_); }
   [[nodiscard]] double force() const { return filtered_.norm(); }
   [[nodiscard]] const Eigen::Vector3d& bias() const { return bias_; }
 

@@ -101,6 +101,12 @@ Result<bool> tryPlace(ScriptedOperator& person, const RobotGeometry& robot, cons
 
 Result<void> playByHand(ScriptedOperator& person, const RobotGeometry& robot,
                         const ArenaMap& arena) {
+  // The mission's clock runs, and the fire burns, from its start; then the autonomy is given up.
+  if (auto started =
+          person.waitFor("the mission's start", seconds(60),
+                         [](const auto& v) { return v.status->phase == MissionPhase::Running; });
+      !started)
+    return started;
   if (auto over = person.takeOver(); !over) return over;
   if (auto scale = person.command(SetSpeedScale{1.0}); !scale) return scale;
   for (const GroundPoseConfig& waypoint : arena.entry_path) {
@@ -127,7 +133,7 @@ Result<EvaluationResult> evaluateFallback(const SweepOptions& options) {
   json runs = json::array();
   std::vector<double> litres, collisions;
   for (int seed = options.first_seed; seed <= options.last_seed; ++seed) {
-    auto live = LiveSystem::start(seed, {}, {});
+    auto live = LiveSystem::start(seed, {"--start"}, {});
     if (!live) return tl::make_unexpected(live.error());
     auto person = (*live)->connectOperator("evaluation");
     if (!person) return tl::make_unexpected(person.error());

@@ -6,6 +6,11 @@
 
 namespace kiln {
 
+LiveSystem::LiveSystem(int seed)
+    : scratch_("live"),
+      operator_clock_(std::chrono::milliseconds(seed * 1237 % 6001 - 3000),
+                      seed % 2 == 0 ? 20.0 : -20.0) {}
+
 Result<std::unique_ptr<LiveSystem>> LiveSystem::start(int seed,
                                                       const std::vector<std::string>& robot_args,
                                                       const std::vector<std::string>& world_args,
@@ -13,7 +18,7 @@ Result<std::unique_ptr<LiveSystem>> LiveSystem::start(int seed,
   const auto program = [&](const std::string& name) {
     return programs.empty() ? siblingProgram(name) : programs + "/" + name;
   };
-  std::unique_ptr<LiveSystem> live(new LiveSystem);
+  std::unique_ptr<LiveSystem> live(new LiveSystem(seed));
   const std::string socket = "ipc://" + live->scratch_.file("world");
   std::vector<std::string> world{program("kiln-sim"),
                                  "--seed",
@@ -42,7 +47,8 @@ Result<std::unique_ptr<LiveSystem>> LiveSystem::start(int seed,
 
 Result<std::unique_ptr<ScriptedOperator>> LiveSystem::connectOperator(
     const std::string& name) const {
-  auto person = ScriptedOperator::connect(linkEndpoint(), name, std::chrono::seconds(15));
+  auto person =
+      ScriptedOperator::connect(linkEndpoint(), name, std::chrono::seconds(15), &operator_clock_);
   if (person) return person;
   return makeError(person.error().code, "{}; the daemon's last words:\n{}", person.error().message,
                    tailOf(scratch_.file("robotd.log"), 6));

@@ -7,11 +7,12 @@
 #include "robot/evaluation/child_process.h"
 #include "robot/evaluation/mission_run.h"
 #include "robot/evaluation/scripted_operator.h"
+#include "robot/evaluation/skewed_clock.h"
 
 namespace kiln {
 
 /// World and daemon in real time, as processes of their own, with the operator link on private
-/// sockets.
+/// sockets. The operator's computer has a clock of its own: off by up to 3 s by seed, and 20 ppm.
 class LiveSystem {
  public:
   /// @param programs  folder of kiln-sim and kiln-robotd; empty = beside this program.
@@ -28,8 +29,9 @@ class LiveSystem {
   [[nodiscard]] Result<std::string> finish();
 
  private:
-  LiveSystem() : scratch_("live") {}
+  explicit LiveSystem(int seed);
   ScratchFolder scratch_;
+  SkewedClock operator_clock_;
   std::unique_ptr<ChildProcess> world_, robot_;
 };
 

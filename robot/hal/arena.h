@@ -11,6 +11,9 @@ class Arena {
  public:
   virtual ~Arena() = default;
   virtual Result<void> requestReset() = 0;
+  /// The mission's clock runs: the fire is lit. Said again (each tick, after a resume or a reset)
+  /// it changes nothing.
+  virtual Result<void> startClock() = 0;
 };
 
 }  // namespace kiln

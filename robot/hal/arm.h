@@ -14,6 +14,12 @@ struct ArmServo {
   Vector6d qd = Vector6d::Zero();  ///< rad/s feed-forward
 };
 
+/// What the arm carries, as its controller is told.
+struct ArmPayload {
+  double mass_kg = 0.0;
+  Eigen::Vector3d p_flange_com = Eigen::Vector3d::Zero();  ///< centre of mass
+};
+
 /// A six-joint arm with a position servo. Device fail-safe: without a servo target for 200 ms it
 /// decelerates and holds. Thread-safe.
 class Arm {
@@ -25,6 +31,12 @@ class Arm {
   /// Only on the operator's explicit word: automatic release of protective stops is prohibited by
   /// the vendor.
   virtual Result<void> releaseProtectiveStop() = 0;
+  /// Its weight and inertia are taken off the reported force and off the one that ends in a
+  /// protective stop. Switched on, a controller has been told nothing.
+  virtual Result<void> setPayload(const ArmPayload& payload) = 0;
+  /// Takes the force that is felt now as zero (what the sensor is off, as it drifts). @pre at rest,
+  /// without contact.
+  virtual Result<void> zeroForceSensor() = 0;
 };
 
 }  // namespace kiln

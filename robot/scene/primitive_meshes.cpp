@@ -63,6 +63,33 @@ TriangleMesh unitSphere() {
   return m;
 }
 
+TriangleMesh cutBox(const Eigen::Vector3d& size_m, double cut_m) {
+  TriangleMesh m;
+  // Corner i has three vertices: vertex 3 i + axis lies on the face across that axis.
+  const auto side = [](int corner, int axis) { return (corner >> axis & 1) != 0 ? 0.5 : -0.5; };
+  for (int corner = 0; corner < 8; ++corner) {
+    for (int face = 0; face < 3; ++face) {
+      Eigen::Vector3d p;
+      for (int axis = 0; axis < 3; ++axis) {
+        const double s = side(corner, axis);
+        p[axis] = s * (size_m[axis] - (axis == face ? 0.0 : 2.0 * cut_m));
+      }
+      m.vertices.push_back(p.cast<float>());
+    }
+    m.triangles.emplace_back(3 * corner, 3 * corner + 1, 3 * corner + 2);
+  }
+  for (int face = 0; face < 3; ++face) {
+    const int u = 1 << (face + 1) % 3, v = 1 << (face + 2) % 3, n = 1 << face;
+    for (const int c : {0, n})
+      m.quad(3 * c + face, 3 * (c | u) + face, 3 * (c | u | v) + face, 3 * (c | v) + face);
+    // The edges along this axis join the faces across the two others.
+    const int a = (face + 1) % 3, b = (face + 2) % 3;
+    for (const int c : {0, u, v, u | v})
+      m.quad(3 * c + a, 3 * c + b, 3 * (c | n) + b, 3 * (c | n) + a);
+  }
+  return m;
+}
+
 TriangleMesh holedPlate(double hole_radius_m, Outline outline, double half_m, double thickness_m) {
   TriangleMesh m;
   for (int i = 0; i < kHoleSides; ++i) {

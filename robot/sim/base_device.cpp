@@ -8,11 +8,30 @@
 namespace kiln::sim {
 namespace {
 constexpr double kDeg = M_PI / 180.0;
+
+/// Eight lithium cells at rest: nominal 29.6 V, 33.2 V full.
+double openCircuitVoltage(double charge) {
+  struct Point {
+    double charge, cell_v;
+  };
+  static constexpr Point kCurve[] = {{0.0, 3.0},  {0.05, 3.35}, {0.2, 3.57},
+                                     {0.5, 3.70}, {0.8, 3.92},  {1.0, 4.15}};
+  const Point* above = kCurve + 1;
+  while (above->charge < charge && above->charge < 1.0) ++above;
+  const Point &low = above[-1], &high = *above;
+  const double share = (charge - low.charge) / (high.charge - low.charge);
+  return 8.0 * (low.cell_v + share * (high.cell_v - low.cell_v));
 }
 
+}  // namespace
+
 BaseDevice::BaseDevice(const BaseDeviceConfig& config, const RobotGeometry& robot,
-                       const TrueRobot& truth)
-    : config_(config), robot_(robot), truth_(truth) {}
+                       const TrueRobot& truth, std::uint64_t seed)
+    : config_(config),
+      robot_(robot),
+      truth_(truth),
+      noise_(seed, "battery"),
+      charge_(config.battery_charge) {}
 
 std::string BaseDevice::write(Stamp now, const WheelCommands& command) {
   const double fastest = config_.max_speed_mps / robot_.wheel_radius_m;
@@ -43,7 +62,8 @@ void BaseDevice::reset() {
 }
 
 void BaseDevice::followCommand(Stamp now, double step_s) {
-  watchdog_stop_ = !commanded_ || toSeconds(now - command_time_) > config_.watchdog_s;
+  watchdog_stop_ =
+      batteryEmpty() || !commanded_ || toSeconds(now - command_time_) > config_.watchdog_s;
   if (watchdog_stop_) return driveTowards({}, step_s);
   const double turn = robot_.steer_rate_deg_s * kDeg * step_s;
   std::array<double, 4> wanted{};
@@ -91,9 +111,12 @@ void BaseDevice::control(Stamp now, double step_s, Physics& physics) {
     drive_torque_nm_[i] = drive_torque;
     power_w_ += std::fabs(drive_torque * drive.velocity) + std::fabs(steer_torque * steer.velocity);
   }
+  const double open_v = openCircuitVoltage(charge_);
+  current_a_ = batteryEmpty() ? 0.0 : config_.idle_a + power_w_ / open_v;
+  charge_ = std::max(0.0, charge_ - current_a_ * step_s / (3600.0 * config_.battery_ah));
 }
 
-BaseState BaseDevice::report(Stamp now, const Physics& physics) const {
+BaseState BaseDevice::report(Stamp now, const Physics& physics) {
   BaseState state;
   state.stamp = now;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -104,8 +127,9 @@ BaseState BaseDevice::report(Stamp now, const Physics& physics) const {
     state.wheels[i].drive_angle_rad = drive.position * scale;
     state.wheels[i].drive_current_a = drive_torque_nm_[i] / config_.torque_constant_nm_per_a;
   }
-  state.battery_a = config_.idle_a + power_w_ / config_.battery_v;
-  state.battery_v = config_.battery_v - config_.battery_ohm * state.battery_a;
+  state.battery_a = current_a_ + noise_.normal(config_.battery_noise_a);
+  state.battery_v = openCircuitVoltage(charge_) - config_.battery_ohm * current_a_ +
+                    noise_.normal(config_.battery_noise_v);
   return state;
 }
 

@@ -22,9 +22,12 @@ void BaseDeviceConfig::visit(ConfigArchive& a) {
   a.field("max_decel_mps2", max_decel_mps2, "m/s2", 0.1, 20, "brakes with, commanded or by itself");
   a.field("wheel_radius_sigma", wheel_radius_sigma, "", 0, 0.1, "relative, per wheel and seed");
   a.field("steer_offset_sigma_deg", steer_offset_sigma_deg, "deg", 0, 10, "per wheel and seed");
-  a.field("battery_v", battery_v, "V", 1, 100, "open-circuit voltage");
+  a.field("battery_ah", battery_ah, "Ah", 0.01, 1e3, "full charge; eight lithium cells");
+  a.field("battery_charge", battery_charge, "", 0, 1, "share of it at the start");
   a.field("battery_ohm", battery_ohm, "Ohm", 0, 1, "inner resistance");
-  a.field("idle_a", idle_a, "A", 0, 100, "computers and controllers");
+  a.field("idle_a", idle_a, "A", 0, 100, "computers, controllers and the arm");
+  a.field("battery_noise_v", battery_noise_v, "V", 0, 5, "rms, of the measurement");
+  a.field("battery_noise_a", battery_noise_a, "A", 0, 50, "rms, of the measurement");
 }
 
 void ArmDeviceConfig::visit(ConfigArchive& a) {
@@ -33,14 +36,21 @@ void ArmDeviceConfig::visit(ConfigArchive& a) {
   a.field("rotor_inertia_kgm2", rotor_inertia_kgm2, "kg m2", 0.001, 20,
           "at the joint, joints 1 to 6");
   a.field("head_kg", head_kg, "kg", 0.1, 12.5, "end-effector with sensors");
+  a.field("head_off_kg", head_off_kg, "kg", 0, 2, "its weight, uniform +-, by seed");
+  a.field("head_off_m", head_off_m, "m", 0, 0.1, "its centre of mass, uniform +-, by seed");
   a.field("watchdog_s", watchdog_s, "s", 0.01, 10, "hold so long after the last servo target");
   a.field("hold_decel_radps2", hold_decel_radps2, "rad/s2", 0.1, 100,
           "deceleration of hold and protective stop");
   a.field("protective_force_n", protective_force_n, "N", 1, 1e4,
           "contact force of a protective stop");
+  a.field("reduced_force_n", reduced_force_n, "N", 1, 1e4, "the same in a reduced zone");
+  a.field("reduced_zone_m", reduced_zone_m, "m", 0, 10, "around the building");
   a.field("force_filter_s", force_filter_s, "s", 0, 1, "time constant of the force measurement");
   a.field("force_noise_n", force_noise_n, "N", 0, 100, "rms a axis");
   a.field("torque_noise_nm", torque_noise_nm, "Nm", 0, 100, "rms a axis");
+  a.field("force_offset_n", force_offset_n, "N", 0, 100, "uniform +-, a axis, until it is zeroed");
+  a.field("force_drift_n", force_drift_n, "N", 0, 100, "of the force sensor in ten minutes");
+  a.field("max_payload_kg", max_payload_kg, "kg", 0.1, 50, "more is refused");
   a.field("speed_tolerance", speed_tolerance, "", 1, 10,
           "refuse targets that need more than this times the limit");
   a.field("position_slack_rad", position_slack_rad, "rad", 0, 1, "jump that is always allowed");
@@ -116,12 +126,14 @@ void PerturbationConfig::visit(ConfigArchive& a) {
   a.field("extrinsic_deg", extrinsic_deg, "deg", 0, 10, "sensor and nozzle mounts, sigma an axis");
   a.field("slope_deg", slope_deg, "deg", 0, 5, "ramp before the door, +-");
   a.field("edge_m", edge_m, "m", 0, 0.02, "edge before the door, +- in height");
+  a.field("rounding_m", rounding_m, "m", 0, 0.05, "radius of the edges of boxes");
 }
 
 void FireConfig::visit(ConfigArchive& a) {
   a.field("ambient_c", ambient_c, "degC", -40, 80, "plate before it is lit");
   a.field("rise_k", rise_k, "K", 0, 1000, "plate: ambient + rise (1 - exp(-t / time constant))");
   a.field("time_constant_s", time_constant_s, "s", 0.1, 1e4, "of the plate");
+  a.field("lit_at_start", lit_at_start, "with the world's time, not with the mission's clock");
   a.field("flame_c", flame_c, "degC", -40, 500, "moving silk");
   a.field("reflection_min_c", reflection_min_c, "degC", -40, 500,
           "mirror image of the hot plate, coolest by seed");

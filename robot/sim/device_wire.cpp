@@ -69,6 +69,16 @@ Result<WorldCommands> fromProto(const v1::device::Advance& m) {
     c.sensors =
         SensorRequest{m.sensors().lidar(), m.sensors().thermal(), m.sensors().operator_camera()};
   }
+  if (m.has_payload()) {
+    if (m.payload().com_m_size() != 3) {
+      return makeError(ErrorCode::Truncated, "payload has a centre of {} numbers; it needs 3",
+                       m.payload().com_m_size());
+    }
+    c.payload = ArmPayload{m.payload().mass_kg(),
+                           {m.payload().com_m(0), m.payload().com_m(1), m.payload().com_m(2)}};
+  }
+  c.zero_force = m.zero_force();
+  c.start_clock = m.start_clock();
   c.release_protective_stop = m.release_protective_stop();
   c.request_reset = m.request_reset();
   return c;

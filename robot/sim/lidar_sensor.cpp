@@ -58,6 +58,12 @@ LidarSensor::LidarSensor(const LidarConfig& config, const RobotGeometry& robot,
                      static_cast<float>(t), (kElevation[laser] + 15) / 2};
     bias_m_[laser] = bias.normal(config.bias_sigma_m);
   }
+  for (std::size_t a = 0; a < kLasers; ++a) {
+    for (std::size_t b = 0; b < kLasers; ++b) {
+      if (beams_[b].ring == beams_[a].ring + 1) above_[a] = b;
+      if (beams_[b].ring == beams_[a].ring - 1) below_[a] = b;
+    }
+  }
   for (int column = 0; column < config.columns; ++column) {
     for (const Beam& beam : beams_) table_.push_back(direction(column, beam, 0.0F, 0.0F));
   }
@@ -118,8 +124,9 @@ void LidarSensor::castColumns(const RayScene& scene) {
   for (std::size_t k = 0; k < order_.size(); ++k) hits_[order_[k]] = packed_hits_[k];
 }
 
-/// Where the ranges of neighbouring columns jump, four more rays within the footprint say what the
-/// beam straddles; surfaces within mixing_depth_m blur into one range between them (a mixed pixel).
+/// Where a neighbouring column or laser meets another surface, four more rays within the footprint
+/// say what the beam straddles; surfaces within mixing_depth_m blur into one range between them (a
+/// mixed pixel).
 void LidarSensor::mixEdges(const RayScene& scene) {
   const std::size_t columns = columns_.size();
   const float spread = static_cast<float>(config_.footprint_mrad * 1e-3 / 3.0);
@@ -134,7 +141,19 @@ void LidarSensor::mixEdges(const RayScene& scene) {
       const auto differs = [&](std::size_t j) {
         return !hits_[j].valid() || std::fabs(hits_[j].range - hits_[i].range) > jump;
       };
-      if (!differs(i - kLasers) && !differs(i + kLasers)) continue;
+      // The next laser is 2 deg away: on the same plane its range differs too, by a known share.
+      const auto leavesPlane = [&](std::size_t other) {
+        const std::size_t j = c * kLasers + other;
+        if (!hits_[j].valid()) return true;
+        const float here = hits_[i].normal.dot(rays_[i].direction),
+                    there = hits_[i].normal.dot(rays_[j].direction);
+        return there * here <= 0.0F ||
+               std::fabs(hits_[j].range - hits_[i].range * here / there) > jump;
+      };
+      const bool edge = differs(i - kLasers) || differs(i + kLasers) ||
+                        (above_[laser] && leavesPlane(*above_[laser])) ||
+                        (below_[laser] && leavesPlane(*below_[laser]));
+      if (!edge) continue;
       edges.push_back(i);
       for (const auto& offset : kOffsets) {
         Raycaster::Ray ray = rays_[i];

@@ -45,6 +45,7 @@ class LidarSensor {
   Random random_;
   std::array<Beam, 16> beams_{};
   std::array<double, 16> bias_m_{};
+  std::array<std::optional<std::size_t>, 16> above_{}, below_{};  ///< laser of the next ring
   std::vector<Eigen::Vector3f> table_;  ///< direction in lidar by column of a turn and laser
   std::int64_t next_column_ = 0;        ///< since world start
   bool running_ = false;

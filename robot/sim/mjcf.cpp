@@ -151,16 +151,22 @@ void writeArmLink(Writer& w, const WorldConfig& config, const RobotGeometry& rob
   w.line(
       R"(<geom name="arm link {}" type="capsule" size="{:.6g}" fromto="0 0 0 {:.6g} 0 {:.6g}" {}/>)",
       i + 1, 0.95 * robot.link_radius_m[i], k.a[i], k.d[i], kRobotBits);
+  if (i != 1 && i != 2) return;
+  // The hose runs along upper arm and forearm.
+  const double beside = 0.95 * robot.link_radius_m[i] + kHoseGap_m;
+  w.line(
+      R"(<geom name="hose {}" type="capsule" size="{:.6g}" fromto="0 0 {:.6g} {:.6g} 0 {:.6g}" {} mass="0"/>)",
+      i + 1, kHoseRadius_m, beside, k.a[i], k.d[i] + beside, kRobotBits);
 }
 
-void writeHead(Writer& w, const WorldConfig& config, const TrueArena& arena,
-               const RobotGeometry& robot) {
+void writeHead(Writer& w, const TrueArena& arena, const RobotGeometry& robot) {
   const UrKinematics& k = robot.arm;
   const Eigen::Isometry3d X(Eigen::Translation3d(k.a[5], 0, k.d[5]) *
                             Eigen::AngleAxisd(k.alpha[5], Eigen::Vector3d::UnitX()));
   w.line(R"(<body name="{}" {}>)", names::kFlange, Writer::pose(X));
-  w.line(R"(<inertial pos="0 0 0.09" mass="{:.4g}" diaginertia="0.03 0.03 0.02"/>)",
-         config.arm.head_kg);
+  const Eigen::Vector3d& com = arena.robot.p_flange_head;
+  w.line(R"(<inertial pos="{:.6g} {:.6g} {:.6g}" mass="{:.6g}" diaginertia="0.03 0.03 0.02"/>)",
+         com.x(), com.y(), com.z(), arena.robot.head_kg);
   for (const BoxConfig& part : robot.head) {
     w.box("head " + part.name, part.center.pose(), {part.size_m[0], part.size_m[1], part.size_m[2]},
           kRobotBits, 0);
@@ -188,7 +194,7 @@ void writeRobot(Writer& w, const WorldConfig& config, const TrueArena& arena,
   }
   writeWheels(w, config, robot);
   for (std::size_t i = 0; i < 6; ++i) writeArmLink(w, config, robot, i);
-  writeHead(w, config, arena, robot);
+  writeHead(w, arena, robot);
   for (int i = 0; i < 6; ++i) w.line("</body>");
   w.line("</body>");
 }

@@ -6,6 +6,9 @@
 
 namespace kiln::sim {
 
+/// The hose on upper arm and forearm, for physics and rays: its axis beside the link's surface.
+inline constexpr double kHoseRadius_m = 0.012, kHoseGap_m = 0.008;
+
 /// Each side of the scripted arm obstacle (arm_obstacle.h), for physics and rays.
 inline constexpr double kObstacleSize_m = 0.2;
 

@@ -37,7 +37,10 @@ std::uint32_t arenaMask(Material m) {
 
 RayScene::RayScene(const WorldConfig& config, const TrueArena& arena, const RobotGeometry& robot,
                    bool with_drops)
-    : robot_(robot), fire_(config.fire), X_flange_lidar_(arena.robot.X_flange_lidar) {
+    : robot_(robot),
+      fire_(config.fire),
+      rounding_m_(config.perturbation.rounding_m),
+      X_flange_lidar_(arena.robot.X_flange_lidar) {
   addArena(arena);
   for (const TrueFirePlace& place : arena.fire_places) addFirePlace(place);
   addRobot(arena);
@@ -59,15 +62,24 @@ Raycaster::Id RayScene::note(Raycaster::Id id, double temperature_c) {
 }
 
 void RayScene::addArena(const TrueArena& arena) {
-  const auto add = [this](const SolidBox& b) {
-    return note(rays_.addBox(b.size_m, b.X_map_box, number(b.material), arenaMask(b.material)),
-                b.temperature_c);
-  };
-  for (const SolidBox& b : arena.ground_boxes) add(b);
+  for (const SolidBox& b : arena.ground_boxes)
+    note(rays_.addBox(b.size_m, b.X_map_box, number(b.material), arenaMask(b.material)),
+         b.temperature_c);
   for (const SolidBox& b : arena.boxes) {
-    boxes_.push_back(add(b));
+    boxes_.push_back(addSolid(b));
     X_map_boxes_.push_back(b.X_map_box);
   }
+}
+
+/// Edges are never sharp; sheets are cut square.
+Raycaster::Id RayScene::addSolid(const SolidBox& b) {
+  const std::uint32_t bits = arenaMask(b.material);
+  if (rounding_m_ <= 0.0 || b.size_m.minCoeff() < 4.0 * rounding_m_)
+    return note(rays_.addBox(b.size_m, b.X_map_box, number(b.material), bits), b.temperature_c);
+  // A cut at 45 degrees that touches the round edge in its middle.
+  const TriangleMesh mesh = cutBox(b.size_m, (2.0 - M_SQRT2) * rounding_m_);
+  return note(rays_.addMesh(mesh.vertices, mesh.triangles, b.X_map_box, number(b.material), bits),
+              b.temperature_c);
 }
 
 std::optional<std::size_t> RayScene::box(const Raycaster::Hit& hit) const {
@@ -91,9 +103,7 @@ void RayScene::addFront(const TrueFirePlace& place) {
 
 void RayScene::addFirePlace(const TrueFirePlace& place) {
   for (const SolidBox& b : place.boxes) {
-    if (!b.visible) continue;
-    note(rays_.addBox(b.size_m, b.X_map_box, number(b.material), arenaMask(b.material)),
-         b.temperature_c);
+    if (b.visible) addSolid(b);
   }
   addFront(place);
   const Eigen::Vector3d p = place.p_front_plate;
@@ -156,8 +166,8 @@ void RayScene::addRobot(const TrueArena& arena) {
     const Eigen::Vector3d start = X_end_start.translation();
     addCapsule(static_cast<int>(i) + 1, start, Eigen::Vector3d::Zero(), radius, Material::ArmLink);
     if (i == 1 || i == 2) {  // the hose runs along the upper arm and the forearm
-      const Eigen::Vector3d beside(0, 0, radius + 0.008);
-      addCapsule(static_cast<int>(i) + 1, start + beside, beside, 0.012, Material::Hose);
+      const Eigen::Vector3d beside(0, 0, radius + kHoseGap_m);
+      addCapsule(static_cast<int>(i) + 1, start + beside, beside, kHoseRadius_m, Material::Hose);
     }
   }
   for (const BoxConfig& part : robot_.head) {

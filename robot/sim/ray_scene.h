@@ -58,6 +58,7 @@ class RayScene {
   };
   Raycaster::Id note(Raycaster::Id id, double temperature_c);
   void addArena(const TrueArena& arena);
+  Raycaster::Id addSolid(const SolidBox& box);
   void addFirePlace(const TrueFirePlace& place);
   void addFront(const TrueFirePlace& place);
   void addRobot(const TrueArena& arena);
@@ -72,6 +73,7 @@ class RayScene {
   Raycaster rays_;
   RobotGeometry robot_;
   FireConfig fire_;
+  double rounding_m_;
   std::vector<Moving> moving_;
   std::array<Raycaster::Id, 4> wheels_{};
   std::vector<double> temperature_c_;                             ///< by instance

@@ -131,6 +131,10 @@ TrueRobot drawRobot(const WorldConfig& config, const RobotGeometry& robot, std::
   out.X_flange_nozzle = perturbedMount(robot.X_flange_nozzle.pose(), config.perturbation, random);
   out.X_base_operatorcamera =
       perturbedMount(robot.X_base_operatorcamera.pose(), config.perturbation, random);
+  Random head(seed, "head");
+  out.head_kg = config.arm.head_kg + head.uniform(-config.arm.head_off_kg, config.arm.head_off_kg);
+  for (double& v : out.p_flange_head)
+    v += head.uniform(-config.arm.head_off_m, config.arm.head_off_m);
   return out;
 }
 
@@ -176,6 +180,20 @@ TrueArena TrueArena::draw(const WorldConfig& config, const ArenaMap& nominal,
   arena.robot = drawRobot(config, robot, seed);
   arena.nominal_start = nominal.start.pose();
   return arena;
+}
+
+Eigen::AlignedBox2d TrueArena::buildingZone(double around_m) const {
+  Eigen::AlignedBox2d zone;
+  for (const SolidBox& b : boxes) {
+    if (b.material != Material::Wall) continue;
+    for (const double x : {-0.5, 0.5}) {
+      for (const double y : {-0.5, 0.5})
+        zone.extend((b.X_map_box * b.size_m.cwiseProduct(Eigen::Vector3d(x, y, 0))).head<2>());
+    }
+  }
+  if (zone.isEmpty()) return zone;
+  const Eigen::Vector2d around = Eigen::Vector2d::Constant(around_m);
+  return {zone.min() - around, zone.max() + around};
 }
 
 Pose2 drawStart(const PerturbationConfig& config, const Pose2& nominal, std::uint64_t seed,

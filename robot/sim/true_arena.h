@@ -65,6 +65,8 @@ struct TrueFirePlace {
 struct TrueRobot {
   std::array<double, 4> wheel_radius_error{};  ///< relative
   std::array<double, 4> steer_offset_rad{};
+  double head_kg = 5.0;
+  Eigen::Vector3d p_flange_head = Eigen::Vector3d(0, 0, 0.09);  ///< centre of mass
   Eigen::Isometry3d X_flange_lidar, X_flange_thermal, X_flange_nozzle, X_base_operatorcamera;
 };
 
@@ -78,6 +80,8 @@ struct TrueArena {
   TrueRobot robot;
   Pose2 nominal_start;
 
+  /// Footprint of the building and so much around it, in map: all walls together.
+  [[nodiscard]] Eigen::AlignedBox2d buildingZone(double around_m) const;
   [[nodiscard]] static TrueArena draw(const WorldConfig& config, const ArenaMap& nominal,
                                       const RobotGeometry& robot, std::uint64_t seed);
 };

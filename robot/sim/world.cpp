@@ -37,15 +37,18 @@ struct World::Impl {
         arena(TrueArena::draw(c, map, r, s)),
         step(fromSeconds(c.physics.step_s)),
         faults(c.faults),
-        arm(c.arm, r, s),
-        base(c.base, r, arena.robot),
+        arm(c.arm, r, arena.robot, s),
+        base(c.base, r, arena.robot, s),
         pumps(c.water, s),
         jet(c.water, arena.fire_places, s),
         wet(c.warm_boards, arena),
         collisions(c.collision_force_n),
         disturbances(arena, r, s),
         sensors(c, arena, r, wet, s, options.render_colour),
-        obstacle(robot) {}
+        obstacle(robot),
+        reduced_zone(arena.buildingZone(c.arm.reduced_zone_m)) {
+    if (c.fire.lit_at_start) lit = now;
+  }
 
   void carryToStart();
   void stepOnce();
@@ -54,8 +57,10 @@ struct World::Impl {
   void noticeFall();
   [[nodiscard]] SceneState scene() const;
   [[nodiscard]] double plate() const {
+    if (!lit) return config.fire.ambient_c;
+    const double burns_s = toSeconds(now - *lit);
     return config.fire.ambient_c +
-           config.fire.rise_k * (1.0 - std::exp(-toSeconds(now) / config.fire.time_constant_s));
+           config.fire.rise_k * (1.0 - std::exp(-burns_s / config.fire.time_constant_s));
   }
   [[nodiscard]] Eigen::Isometry3d X_map_flange() const {
     return physics->X_map_base() * robot.X_base_flange(physics->armPosition());
@@ -78,8 +83,10 @@ struct World::Impl {
   Disturbances disturbances;
   SensorSuite sensors;
   ArmObstacle obstacle;
+  Eigen::AlignedBox2d reduced_zone;
   bool protective_stop_done = false;
   std::optional<Stamp> fell;
+  std::optional<Stamp> lit;  ///< the burning plate
   std::uint32_t resets = 0;
   std::vector<Pose2> starts;
   std::uint64_t seq = 0;
@@ -155,11 +162,14 @@ void World::Impl::stepWater() {
 void World::Impl::stepOnce() {
   const double dt = toSeconds(step);
   applyFaults();
+  const Eigen::Vector3d p_map_tool = X_map_flange() * robot.X_flange_tool.pose().translation();
+  arm.setReduced(reduced_zone.contains(Eigen::Vector2d(p_map_tool.head<2>())));
+  arm.setPowered(!base.batteryEmpty());
   arm.control(now, dt, *physics);
   base.control(now, dt, *physics);
   physics->step();
   now += step;
-  arm.sense(dt, *physics);
+  arm.sense(now, dt, *physics);
   collisions.observe(now, physics->contacts());
   noticeFall();
   stepWater();
@@ -199,6 +209,8 @@ void World::command(const WorldCommands& c) {
     if (!why.empty()) w.refused = std::move(why);
   };
   if (c.sensors) w.sensors.request(*c.sensors);
+  if (c.payload) note(w.arm.setPayload(*c.payload));
+  if (c.zero_force) w.arm.zeroForceSensor();
   if (c.release_protective_stop) {
     w.arm.releaseProtectiveStop();
     w.refused.clear();
@@ -207,6 +219,7 @@ void World::command(const WorldCommands& c) {
     ++w.resets;
     w.carryToStart();
   }
+  if (c.start_clock && !w.lit) w.lit = w.now;
   if (c.arm) note(w.arm.servo(w.now, c.arm->q, c.arm->qd, c.arm_sent));
   if (c.base) note(w.base.write(w.now, *c.base));
   if (c.pumps) note(w.pumps.write(w.now, *c.pumps));

@@ -26,8 +26,11 @@ struct WorldCommands {
   std::optional<WheelCommands> base;
   std::optional<std::array<double, 2>> pumps;
   std::optional<SensorRequest> sensors;
+  std::optional<ArmPayload> payload;
+  bool zero_force = false;
   bool release_protective_stop = false;
   bool request_reset = false;
+  bool start_clock = false;  ///< of the mission; the first one counts
 };
 
 /// What the devices report, and the sensor frames finished since the last report. No truth.

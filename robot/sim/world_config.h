@@ -35,7 +35,10 @@ struct BaseDeviceConfig {
   double max_decel_mps2 = 2.0;        ///< of the wheels, commanded or by itself
   double wheel_radius_sigma = 0.005;  ///< relative, per wheel
   double steer_offset_sigma_deg = 0.3;
-  double battery_v = 29.6, battery_ohm = 0.05, idle_a = 3.0;
+  double battery_ah = 20.0, battery_ohm = 0.05;
+  double battery_charge = 1.0;  ///< share of it at the start
+  double idle_a = 15.0;         ///< computers, controllers, the arm: about an hour
+  double battery_noise_v = 0.02, battery_noise_a = 0.1;
   void visit(ConfigArchive& a);
 };
 
@@ -46,11 +49,17 @@ struct ArmDeviceConfig {
   std::vector<double> rotor_inertia_kgm2{2.0, 2.0, 1.0,
                                          0.2, 0.2, 0.2};  ///< at the joint, estimated
   double head_kg = 5.0;                                   ///< end-effector with sensors
+  double head_off_kg = 0.1, head_off_m = 0.005;           ///< uniform, +-, by seed
   double watchdog_s = 0.2;
   double hold_decel_radps2 = 10.0;  ///< decelerates and holds
   double protective_force_n = 150.0;
-  double force_filter_s = 0.02;  ///< of the force measurement
+  double reduced_force_n = 100.0;  ///< instead, in a reduced zone
+  double reduced_zone_m = 1.0;     ///< around the building
+  double force_filter_s = 0.02;    ///< of the force measurement
   double force_noise_n = 1.0, torque_noise_nm = 0.05;
+  double force_offset_n = 5.0;   ///< uniform, +-, per axis and seed: before it is zeroed
+  double force_drift_n = 2.0;    ///< in ten minutes, in a direction by seed
+  double max_payload_kg = 12.5;  ///< vendor; more is refused
   double speed_tolerance =
       1.2;  ///< a target that needs more than this times the speed limit is refused
   double position_slack_rad = 0.02;  ///< jump that is always allowed
@@ -120,12 +129,14 @@ struct PerturbationConfig {
   double plate_off_centre_m = 0.003;                ///< uniform, +-
   double extrinsic_m = 0.005, extrinsic_deg = 0.3;  ///< sigma per axis
   double slope_deg = 0.5, edge_m = 0.005;           ///< ramp and edge before the door, uniform, +-
+  double rounding_m = 0.005;                        ///< radius of the edges of boxes, for rays
   void visit(ConfigArchive& a);
 };
 
 struct FireConfig {
   double ambient_c = 25.0, rise_k = 105.0,
          time_constant_s = 60.0;  ///< T = ambient + rise (1 - exp(-t / constant))
+  bool lit_at_start = false;      ///< of the world, instead of the mission's clock
   double flame_c = 38.0;
   double reflection_min_c = 45.0,
          reflection_max_c = 70.0;  ///< mirror image of the hot plate in the acrylic

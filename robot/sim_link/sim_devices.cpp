@@ -43,6 +43,20 @@ Result<void> SimArm::releaseProtectiveStop() {
   return outbox_.put([](v1::device::Advance& m) { m.set_release_protective_stop(true); });
 }
 
+Result<void> SimArm::setPayload(const ArmPayload& payload) {
+  if (!std::isfinite(payload.mass_kg) || !payload.p_flange_com.allFinite())
+    return tl::make_unexpected(notFinite("arm"));
+  return outbox_.put([&](v1::device::Advance& m) {
+    m.mutable_payload()->set_mass_kg(payload.mass_kg);
+    m.mutable_payload()->clear_com_m();
+    for (const double v : payload.p_flange_com) m.mutable_payload()->add_com_m(v);
+  });
+}
+
+Result<void> SimArm::zeroForceSensor() {
+  return outbox_.put([](v1::device::Advance& m) { m.set_zero_force(true); });
+}
+
 Result<void> SimDriveBase::write(const WheelCommands& command) {
   for (const WheelCommand& wheel : command) {
     if (!std::isfinite(wheel.steer_rad) || !std::isfinite(wheel.drive_radps))
@@ -69,6 +83,13 @@ Result<void> SimPumps::write(const std::array<double, 2>& duty) {
 
 Result<void> SimArena::requestReset() {
   return outbox_.put([](v1::device::Advance& m) { m.set_request_reset(true); });
+}
+
+Result<void> SimArena::startClock() {
+  if (clock_told_) return {};
+  auto put = outbox_.put([](v1::device::Advance& m) { m.set_start_clock(true); });
+  if (put) clock_told_ = true;
+  return put;
 }
 
 void SensorSwitch::fill(v1::device::Advance& m) const {

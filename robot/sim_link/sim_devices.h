@@ -48,6 +48,8 @@ class SimArm final : public Arm {
   [[nodiscard]] std::optional<ArmState> state() const override { return latest.peek(); }
   Result<void> servo(const ArmServo& target) override;
   Result<void> releaseProtectiveStop() override;
+  Result<void> setPayload(const ArmPayload& payload) override;
+  Result<void> zeroForceSensor() override;
   LatestValue<ArmState> latest;
 
  private:
@@ -81,9 +83,13 @@ class SimArena final : public Arena {
  public:
   explicit SimArena(Outbox& outbox) : outbox_(outbox) {}
   Result<void> requestReset() override;
+  Result<void> startClock() override;
+  /// After a (re)connect: the world may be another one.
+  void forget() { clock_told_ = false; }
 
  private:
   Outbox& outbox_;
+  std::atomic<bool> clock_told_{false};
 };
 
 /// Which sensors run, as one message; shared by the three sensors below. Thread-safe.

@@ -170,6 +170,7 @@ void SimLink::Impl::handle(const v1::device::ToRobot& message) {
     welcome();
     ++reconnects;
     sensors.repeat();
+    arena.forget();
     logger("sim_link")->info("world '{}' is back", message.hello().world());
     return;
   }

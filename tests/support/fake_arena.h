@@ -59,6 +59,7 @@ class FakeReferee final : public Arena {
     carry_();
     return {};
   }
+  Result<void> startClock() override { return {}; }
 
  private:
   std::function<void()> carry_;

@@ -25,7 +25,9 @@ FakeArm::FakeArm(const Clock& clock, const RobotGeometry& robot, const Vector6d&
 
 std::optional<ArmState> FakeArm::state() const {
   const std::lock_guard lock(mutex_);
-  return state_;
+  ArmState shown = state_;
+  shown.wrench_tool.head<3>() -= zero_n_;
+  return shown;
 }
 
 Result<void> FakeArm::servo(const ArmServo& target) {
@@ -52,6 +54,19 @@ Result<void> FakeArm::releaseProtectiveStop() {
   ++releases_;
   state_.safety = ArmSafetyMode::Normal;
   target_.reset();
+  return {};
+}
+
+Result<void> FakeArm::setPayload(const ArmPayload& payload) {
+  const std::lock_guard lock(mutex_);
+  payloads_.push_back(payload);
+  return {};
+}
+
+Result<void> FakeArm::zeroForceSensor() {
+  const std::lock_guard lock(mutex_);
+  ++zeroings_;
+  zero_n_ = state_.wrench_tool.head<3>();
   return {};
 }
 
@@ -108,6 +123,14 @@ std::vector<ArmServo> FakeArm::sent() const {
 int FakeArm::releases() const {
   const std::lock_guard lock(mutex_);
   return releases_;
+}
+std::vector<ArmPayload> FakeArm::payloads() const {
+  const std::lock_guard lock(mutex_);
+  return payloads_;
+}
+int FakeArm::zeroings() const {
+  const std::lock_guard lock(mutex_);
+  return zeroings_;
 }
 
 FakeBase::FakeBase(const Clock& clock, const RobotGeometry& robot)

@@ -21,6 +21,8 @@ class FakeArm final : public Arm {
   [[nodiscard]] std::optional<ArmState> state() const override;
   Result<void> servo(const ArmServo& target) override;
   Result<void> releaseProtectiveStop() override;
+  Result<void> setPayload(const ArmPayload& payload) override;
+  Result<void> zeroForceSensor() override;
   void advance();
 
   void setForce(const Eigen::Vector3d& force_n);  ///< what the sensor shows, arm_base axes
@@ -31,6 +33,8 @@ class FakeArm final : public Arm {
   void jam(bool jammed);          ///< joints stand still whatever is commanded
   [[nodiscard]] std::vector<ArmServo> sent() const;  ///< every target that reached the device
   [[nodiscard]] int releases() const;
+  [[nodiscard]] std::vector<ArmPayload> payloads() const;  ///< that it was told
+  [[nodiscard]] int zeroings() const;
 
  private:
   const Clock& clock_;
@@ -40,7 +44,9 @@ class FakeArm final : public Arm {
   std::optional<ArmServo> target_;
   Stamp target_stamp_, last_;
   bool frozen_ = false, jammed_ = false;
-  int releases_ = 0;
+  int releases_ = 0, zeroings_ = 0;
+  Eigen::Vector3d zero_n_ = Eigen::Vector3d::Zero();
+  std::vector<ArmPayload> payloads_;
   std::vector<ArmServo> sent_;
 };
 

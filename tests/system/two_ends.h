@@ -12,6 +12,7 @@
 #include "common/client/operator_session.h"
 #include "common/core/clock.h"
 #include "robot/app/operator_link.h"
+#include "robot/evaluation/skewed_clock.h"
 #include "robot/safety/authority.h"
 
 namespace kiln::test {
@@ -67,7 +68,8 @@ class LinkedOperator {
   [[nodiscard]] std::vector<CommandUpdate> updates() const;
   [[nodiscard]] std::optional<RobotStatus> status() const;
 
-  SteadyClock clock;
+  /// A station's clock is never the robot's: up to 3 s off, and it drifts (scenario.md section 2).
+  SkewedClock clock{std::chrono::milliseconds(-2900), 20.0};
   mutable std::mutex mutex;
   std::map<Topic, int> received;  ///< guarded by mutex
   FsmInfo fsm_info;               ///< guarded by mutex

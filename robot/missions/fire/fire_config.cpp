@@ -1,28 +1,6 @@
 #include "robot/missions/fire/fire_config.h"
 
-#include <cmath>
-
 namespace kiln {
-namespace {
-constexpr double kKelvin = 273.15;
-constexpr double kNever_s = 3.2e7;
-}  // namespace
-
-void PlateHeatingConfig::visit(ConfigArchive& a) {
-  a.field("ambient_c", ambient_c, "degC", -20.0, 60.0, "plate before it was lit");
-  a.field("rise_c", rise_c, "K", 10.0, 1000.0, "final rise above that");
-  a.field("tau_s", tau_s, "s", 1.0, 3600.0, "time constant");
-  a.field("margin_k", margin_k, "K", 0.0, 50.0,
-          "above the threshold before a place counts as not burning");
-  a.field("threshold_c", threshold_c, "degC", 30.0, 500.0, "until the detector has told its own");
-}
-
-double PlateHeatingConfig::hotAfterS(double threshold_k) const {
-  const double threshold = (threshold_k > 0.0 ? threshold_k - kKelvin : threshold_c) + margin_k;
-  const double share = (threshold - ambient_c) / rise_c;
-  if (share >= 1.0) return kNever_s;
-  return share <= 0.0 ? 0.0 : -tau_s * std::log(1.0 - share);
-}
 
 void FireDriveConfig::visit(ConfigArchive& a) {
   a.field("clearance_m", clearance_m, "m", 0.0, 2.0,
@@ -43,6 +21,7 @@ void FireCheckConfig::visit(ConfigArchive& a) {
 
 void FireSearchConfig::visit(ConfigArchive& a) {
   a.section("motion", motion, "rectangular search motion");
+  a.section("warming", warming, "a place that still warms is searched again");
   a.field("max_searches", max_searches, "", 1, 10, "of a plate that was glimpsed, a place");
   a.field("max_rounds", max_rounds, "", 1, 10, "over all places while no fire was found");
   a.field("place_gate_m", place_gate_m, "m", 0.05, 5.0,
@@ -116,7 +95,6 @@ void FireClockConfig::visit(ConfigArchive& a) {
 }
 
 void FireConfig::visit(ConfigArchive& a) {
-  a.section("heating", heating, "how the plate warms");
   a.section("drive", drive, "driving between places");
   a.section("check", check, "configured against sensed place");
   a.section("search", search, "looking for the heat source");

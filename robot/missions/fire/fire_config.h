@@ -3,22 +3,9 @@
 #include "robot/missions/fire/skills/aim_solver.h"
 #include "robot/missions/fire/skills/search_rectangle.h"
 #include "robot/missions/fire/skills/spray_pattern.h"
+#include "robot/missions/fire/skills/warming_trend.h"
 
 namespace kiln {
-
-/// The plate warms as ambient + rise (1 - exp(-t / tau)) from the mission's start (scenario.md
-/// section 3).
-struct PlateHeatingConfig {
-  double ambient_c = 25.0;
-  double rise_c = 105.0;
-  double tau_s = 60.0;
-  double margin_k = 10.0;     ///< above the detector's threshold before "not burning" is concluded
-  double threshold_c = 75.0;  ///< used until the detector has told its own
-  void visit(ConfigArchive& a);
-  /// Mission time at which a burning plate is surely above the threshold; a year if it never gets
-  /// there.
-  [[nodiscard]] double hotAfterS(double threshold_k) const;
-};
 
 struct FireDriveConfig {
   double clearance_m =
@@ -41,6 +28,7 @@ struct FireCheckConfig {
 
 struct FireSearchConfig {
   SearchConfig motion;
+  WarmingConfig warming;
   int max_searches = 2;  ///< of a plate that is hot and was glimpsed, a place
   int max_rounds = 2;    ///< over all places while no fire was found
   double place_gate_m =
@@ -112,7 +100,6 @@ struct FireClockConfig {
 
 /// Everything that can be set of the fire mission: resources/config/fire_mission.yaml.
 struct FireConfig {
-  PlateHeatingConfig heating;
   FireDriveConfig drive;
   FireCheckConfig check;
   FireSearchConfig search;

@@ -19,6 +19,7 @@ FireContext::FireContext(const FireDevices& fire_devices, const FireConfig& fire
       config(fire_config),
       belief(initialFireBelief(fire_devices.arena)),
       heat(fire_devices.heat),
+      warming(fire_config.search.warming),
       look(fire_config.search.motion, fire_devices.robot, fire_devices.arm),
       drive(fire_devices, fire_config.drive.stow_tolerance_deg * kDeg) {}
 

@@ -30,6 +30,7 @@ class FireContext {
   const SprayCalibration& calibration = devices.calibration;
   FireBelief belief;
   HeatWatch heat;
+  WarmingTrend warming;  ///< of the present sweep
   LookAround look;
   StowedDrive drive;
   /// The chosen spray pose, seen from where the base stood then: a later correction of the base's
@@ -45,7 +46,6 @@ class FireContext {
   std::optional<PlaceCheck> place_check;           ///< of the present look
   std::map<std::string, PlaceCheck> place_checks;  ///< newest of each place
   std::optional<Stamp> pumps_idle_since;           ///< while they should run
-  double sweep_started_s = 0.0;  ///< mission time at which the present sweep began
 
   /// Seconds on the mission clock.
   [[nodiscard]] double elapsedS(Stamp now) const { return devices.belief.elapsedS(now); }

@@ -113,7 +113,9 @@ void FireMission::observe(Stamp) {
 
 void FireMission::onDetections(const HeatDetections& detections,
                                const Eigen::Isometry3d& X_map_thermal) {
-  impl_->context.heat.onDetections(detections, X_map_thermal);
+  FireContext& c = impl_->context;
+  c.heat.onDetections(detections, X_map_thermal);
+  if (c.heat.listening()) c.warming.add(detections, X_map_thermal);
 }
 
 void FireMission::onThermal(ThermalImagePtr image) {

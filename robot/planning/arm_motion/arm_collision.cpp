@@ -9,13 +9,28 @@
 namespace kiln {
 namespace {
 
-constexpr std::array<const char*, 6> kLink = {"arm column", "upper arm", "forearm",
-                                              "wrist 1",    "wrist 2",   "wrist 3"};
-constexpr double kMinStep = 0.004;  // m; shortest stride of the path check
+constexpr std::size_t kUpperArm = 1, kForearm = 2, kHoses = 6;
+constexpr std::array<const char*, 8> kLink = {"arm column",        "upper arm",      "forearm",
+                                              "wrist 1",           "wrist 2",        "wrist 3",
+                                              "hose on upper arm", "hose on forearm"};
+constexpr double kHoseRadius_m = 0.013, kHoseGap_m = 0.008;  // its axis, beside the link's surface
+constexpr double kMinStep = 0.004;                           // m; shortest stride of the path check
 // Capsules of links that can meet; neighbours in the chain always touch.
-constexpr std::array<std::array<std::size_t, 2>, 8> kSelfPairs = {
-    {{0, 2}, {0, 3}, {0, 4}, {0, 5}, {1, 3}, {1, 4}, {1, 5}, {2, 5}}};
-constexpr std::size_t kHeadMeetsLinks = 4;  // links 0..3; wrists 2 and 3 carry the head
+constexpr std::array<std::array<std::size_t, 2>, 13> kSelfPairs = {{{0, 2},
+                                                                    {0, 3},
+                                                                    {0, 4},
+                                                                    {0, 5},
+                                                                    {1, 3},
+                                                                    {1, 4},
+                                                                    {1, 5},
+                                                                    {2, 5},
+                                                                    {6, 3},
+                                                                    {6, 4},
+                                                                    {6, 5},
+                                                                    {7, 0},
+                                                                    {7, 5}}};
+// Wrists 2 and 3 carry the head.
+constexpr std::array<std::size_t, 6> kHeadMeets = {0, 1, 2, 3, 6, 7};
 
 Eigen::Vector3d sizeOf(const BoxConfig& box) {
   return {box.size_m[0], box.size_m[1], box.size_m[2]};
@@ -82,7 +97,7 @@ void ArmCollision::setScene(const std::vector<BoxConfig>& boxes_map, const Pose2
 
 void ArmCollision::testScene(Query& query) const {
   for (const OrientedBox& box : scene_) {
-    for (std::size_t link = 0; link < 6; ++link) query.test(link, box);
+    for (std::size_t link = 0; link < query.links.size(); ++link) query.test(link, box);
     for (const OrientedBox& part : query.head) query.test(part, box);
   }
 }
@@ -90,7 +105,7 @@ void ArmCollision::testScene(Query& query) const {
 void ArmCollision::testBody(Query& query) const {
   for (const OrientedBox& box : body_) {
     // The column stands on the deck.
-    for (std::size_t link = 1; link < 6; ++link) query.test(link, box);
+    for (std::size_t link = 1; link < query.links.size(); ++link) query.test(link, box);
     for (const OrientedBox& part : query.head) query.test(part, box);
   }
 }
@@ -100,12 +115,12 @@ void ArmCollision::testSelf(Query& query) const {
     query.offer(kiln::distance(query.links[a], query.links[b]), kLink[a], kLink[b]);
   }
   for (const OrientedBox& part : query.head) {
-    for (std::size_t link = 0; link < kHeadMeetsLinks; ++link) query.test(link, part);
+    for (const std::size_t link : kHeadMeets) query.test(link, part);
   }
 }
 
 void ArmCollision::testGround(Query& query) const {
-  for (std::size_t link = 1; link < 6; ++link) {
+  for (std::size_t link = 1; link < query.links.size(); ++link) {
     const Capsule& c = query.links[link];
     query.offer(std::min(c.a.z(), c.b.z()) - c.radius, kLink[link], "ground");
   }
@@ -124,6 +139,12 @@ ArmShapes ArmCollision::shapesAt(const Vector6d& q) const {
     const Eigen::Vector3d to = X_base_armbase_ * frames[i].translation();
     out.links[i] = {from, to, radius_[i]};
     from = to;
+  }
+  for (const std::size_t link : {kUpperArm, kForearm}) {
+    const Eigen::Vector3d beside =
+        (radius_[link] + kHoseGap_m) * (X_base_armbase_.linear() * frames[link].linear().col(2));
+    const Capsule& c = out.links[link];
+    out.links[kHoses + link - kUpperArm] = {c.a + beside, c.b + beside, kHoseRadius_m};
   }
   const Eigen::Isometry3d X_base_flange = X_base_armbase_ * frames[5];
   for (const OrientedBox& part : head_in_flange_) {

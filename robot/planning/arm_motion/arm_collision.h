@@ -17,15 +17,15 @@ struct Clearance {
 
 /// Arm and head at one posture, in base.
 struct ArmShapes {
-  std::array<Capsule, 6> links;
+  std::array<Capsule, 8> links;  ///< six links, then the hose on upper arm and forearm
   std::vector<OrientedBox> head;
-  /// "forearm"; of link 0..5.
+  /// "forearm"; of links[link].
   [[nodiscard]] static const char* nameOf(std::size_t link);
 };
 
-/// The arm as six capsules along its DH skeleton and the head as boxes, against the robot's own
-/// body, itself, the ground and the known boxes around. Everything in base. Thread-compatible;
-/// const calls are thread-safe.
+/// The arm as six capsules along its DH skeleton, the hose as two beside them and the head as
+/// boxes, against the robot's own body, itself, the ground and the known boxes around. Everything
+/// in base. Thread-compatible; const calls are thread-safe.
 class ArmCollision {
  public:
   explicit ArmCollision(const RobotGeometry& robot);

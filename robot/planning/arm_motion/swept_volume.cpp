@@ -27,7 +27,7 @@ double toCapsule(const Eigen::Vector3d& p, const Capsule& c) {
 std::vector<Near> nearArm(const ArmShapes& arm, const PointGrid& points, double clearance_m) {
   std::vector<Near> out;
   // The column stands on the deck and never moves sideways; what is there was there before.
-  for (std::size_t link = 1; link < 6; ++link) {
+  for (std::size_t link = 1; link < arm.links.size(); ++link) {
     const Capsule& c = arm.links[link];
     const Eigen::Vector3d grown = Eigen::Vector3d::Constant(c.radius + clearance_m);
     points.visitBox(c.a.cwiseMin(c.b) - grown, c.a.cwiseMax(c.b) + grown, [&](std::size_t i) {

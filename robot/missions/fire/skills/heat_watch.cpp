@@ -36,7 +36,6 @@ void HeatWatch::listen(const Eigen::Vector3d& normal_map) {
 void HeatWatch::onDetections(const HeatDetections& detections,
                              const Eigen::Isometry3d& X_map_thermal) {
   last_image_ = detections.stamp;
-  if (detections.threshold_k > 0.0) threshold_k_ = detections.threshold_k;
   last_refusal_ = detections.usable ? std::string{} : detections.refusal;
   if (!detections.usable || !listening_ || !isFinite(X_map_thermal)) return;
   ++looks_;

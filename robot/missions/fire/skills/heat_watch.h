@@ -35,8 +35,6 @@ class HeatWatch {
   /// Time of usable images that passed without a sighting since the last one, s.
   [[nodiscard]] double unseenForS() const { return unseen_for_s_; }
   [[nodiscard]] const std::string& lastRefusal() const { return last_refusal_; }
-  /// Threshold of the detector as last reported, K; 0 = no image yet.
-  [[nodiscard]] double thresholdK() const { return threshold_k_; }
 
  private:
   HeatSweep& sweep_;
@@ -50,7 +48,6 @@ class HeatWatch {
   std::optional<Stamp> last_usable_;
   std::optional<Stamp> last_seen_;
   double unseen_for_s_ = 0.0;
-  double threshold_k_ = 0.0;
   std::string last_refusal_;
 };
 

@@ -12,8 +12,8 @@ void ArmSearch::arrive() { ++context().place().searches; }
 void ArmSearch::enter() {
   FireContext& c = context();
   c.aim.reset();
-  c.sweep_started_s = c.elapsedS(now());
   c.heat.begin(c.placeNormal());
+  c.warming.begin(c.place().p_plate_map);
   c.look.start(c.X_map_base(), c.place().p_plate_map, c.placeNormal(), now());
 }
 

@@ -26,13 +26,12 @@ Transition HeatFound::execute() {
     return transit<AimHose>().because(
         fmt::format("{:.0f} K at {:.2f} m", estimate->peak_k, estimate->range_m));
   }
-  const double hot_after_s = c.config.heating.hotAfterS(c.heat.thresholdK());
-  const bool was_hot = guard(
-      "Plate has had time to heat", c.sweep_started_s >= hot_after_s,
-      fmt::format("hot after {:.0f} s, sweep began at {:.0f} s", hot_after_s, c.sweep_started_s));
-  if (!was_hot) {
+  const std::optional<double> rise_kps = c.warming.rise();
+  const bool steady = guard("Temperature is steady", !rise_kps,
+                            fmt::format("rises by {:.1f} K/s", rise_kps.value_or(0.0)));
+  if (!steady) {
     --place.searches;  // it could not have been found yet
-    return transit<ArmSearch>().because("the plate may still be warming");
+    return transit<ArmSearch>().because("the place is still warming");
   }
   const bool glimpsed = c.heat.sightings() > 0 || c.heat.looks() == 0;
   if (glimpsed && place.searches < c.config.search.max_searches)

@@ -210,6 +210,34 @@ TEST_F(ArmControllerTest, GuardedMotionStopsOnContactAndLatchesUntilHold) {
   EXPECT_TRUE(controller.tracking().blocked.empty()) << controller.tracking().blocked;
 }
 
+TEST_F(ArmControllerTest, TellsThePayloadOfADeviceThatItMeetsAndZeroesItsForceAtRest) {
+  arm.setForce({4, 0, -3});  // what the sensor is off
+  idle(0.1);
+  ASSERT_EQ(arm.payloads().size(), 1U);
+  EXPECT_EQ(arm.payloads()[0].mass_kg, ArmController::Config{}.payload_kg);
+  EXPECT_EQ(arm.payloads()[0].p_flange_com, Eigen::Vector3d(0, 0, 0.09));
+  EXPECT_EQ(arm.zeroings(), 0) << "the told payload has not settled";
+  idle(0.5);
+  EXPECT_EQ(arm.zeroings(), 1);
+  EXPECT_LT(controller.tracking().contact_force_n, 0.1);
+  arm.freezeState(true);
+  idle(1.2);
+  arm.freezeState(false);
+  idle(0.6);
+  EXPECT_EQ(arm.payloads().size(), 2U) << "it may have been switched off";
+  EXPECT_EQ(arm.zeroings(), 2);
+}
+
+TEST_F(ArmControllerTest, AForceAtRestThatIsAContactIsNotZeroedAway) {
+  arm.setForce({0, 40, 0});
+  idle(3.0);
+  EXPECT_EQ(arm.zeroings(), 0);
+  EXPECT_GT(controller.tracking().contact_force_n, 29.0);
+  arm.setForce({0, 0, 0});
+  idle(0.5);
+  EXPECT_EQ(arm.zeroings(), 1);
+}
+
 TEST_F(ArmControllerTest, StopsWhenTheStateIsStale) {
   stream(0.4, 1.0, 0.8);
   arm.freezeState(true);

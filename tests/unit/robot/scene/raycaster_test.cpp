@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "common/geom/pose.h"
+#include "robot/scene/primitive_meshes.h"
 
 namespace kiln {
 namespace {
@@ -113,6 +114,55 @@ TEST(Raycaster, NothingBeyondMaxRange) {
   EXPECT_EQ(blocked[0], 0);
   EXPECT_EQ(blocked[1], 1);
   EXPECT_FALSE(castOne(scene, rays[0]).valid());
+}
+
+TEST(Raycaster, ABoxWithCutEdgesIsTheBoxWithoutThem) {
+  const Eigen::Vector3d size(0.4, 0.6, 0.8);
+  const TriangleMesh mesh = cutBox(size, 0.05);
+  Raycaster scene;
+  scene.addMesh(mesh.vertices, mesh.triangles, Eigen::Isometry3d::Identity(), 1);
+  scene.commit();
+  const auto along = [&](double y, double z) {
+    return castOne(scene, {{2.0F, static_cast<float>(y), static_cast<float>(z)}, {-1, 0, 0}});
+  };
+  EXPECT_NEAR(along(0.0, 0.0).range, 1.8, 1e-5);
+  EXPECT_NEAR(along(0.24, 0.34).range, 1.8, 1e-5) << "5 cm from two edges";
+  EXPECT_NEAR(along(0.28, 0.0).range, 1.83, 1e-5) << "3 of 5 cm into the cut";
+  EXPECT_NEAR(along(0.28, 0.0).normal.y(), M_SQRT1_2, 1e-5);
+  EXPECT_FALSE(along(0.295, 0.395).valid()) << "the corner is gone";
+  EXPECT_FALSE(along(0.301, 0.0).valid());
+  // Closed: every ray from the middle meets it once.
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> axis;
+  for (int i = 0; i < 2000; ++i) {
+    const Eigen::Vector3d d =
+        Eigen::Vector3d(axis(random), axis(random), axis(random)).normalized();
+    const auto hit = castOne(scene, {Eigen::Vector3f::Zero(), d.cast<float>()});
+    ASSERT_TRUE(hit.valid());
+    const double full = 0.5 / (d.cwiseAbs().array() / size.array()).maxCoeff();
+    ASSERT_LE(hit.range, full + 1e-5);
+    ASSERT_GE(hit.range, full - 0.05 * std::sqrt(3.0));
+  }
+}
+
+TEST(Raycaster, APlateWithARoundHoleLetsPassWhatMeetsTheHole) {
+  const TriangleMesh mesh = holedPlate(0.075, Outline::Square, 0.175, 0.005);
+  Raycaster scene;
+  scene.addMesh(mesh.vertices, mesh.triangles, Eigen::Isometry3d::Identity(), 1);
+  scene.commit();
+  for (int i = 0; i < 360; ++i) {
+    const double angle = i * M_PI / 180.0;
+    const auto at_radius = [&](double r) {
+      return castOne(scene, {{1.0F, static_cast<float>(r * std::cos(angle)),
+                              static_cast<float>(r * std::sin(angle))},
+                             {-1, 0, 0}});
+    };
+    ASSERT_FALSE(at_radius(0.0745).valid()) << i;
+    ASSERT_TRUE(at_radius(0.0755).valid()) << i;
+    const double edge = 0.175 / std::max(std::fabs(std::cos(angle)), std::fabs(std::sin(angle)));
+    ASSERT_TRUE(at_radius(edge - 0.0005).valid()) << i;
+    ASSERT_FALSE(at_radius(edge + 0.0005).valid()) << i;
+  }
 }
 
 TEST(Raycaster, MeshIsMetFromBothSides) {

@@ -26,8 +26,18 @@ class ArmObstacleTest : public testing::Test {
       return {};
     }
     Result<void> releaseProtectiveStop() override { return {}; }
+    Result<void> setPayload(const ArmPayload& payload) override {
+      payload_ = payload;
+      return {};
+    }
+    Result<void> zeroForceSensor() override {
+      zero_ = true;
+      return {};
+    }
     std::optional<ArmState> state_;
     std::optional<ArmServo> target_;
+    std::optional<ArmPayload> payload_;
+    bool zero_ = false;
   };
 
   void make(const std::string& fault) {
@@ -36,7 +46,8 @@ class ArmObstacleTest : public testing::Test {
     world = std::move(*World::create(config, 1));
     servo = {};
     controller.emplace(ArmController::Config{}, world->robot(), servo, stop);
-    runUntil(0.4);  // the controller has seen the arm at rest
+    runUntil(0.6);  // the controller has seen the arm at rest and zeroed its force sensor
+    felt_n = 0.0;
   }
   void runUntil(double t_s) {
     while (toSeconds(world->now()) < t_s) tick();
@@ -45,6 +56,8 @@ class ArmObstacleTest : public testing::Test {
     controller->tick(world->now());
     WorldCommands commands;
     commands.arm = std::exchange(servo.target_, std::nullopt);
+    commands.payload = std::exchange(servo.payload_, std::nullopt);
+    commands.zero_force = std::exchange(servo.zero_, false);
     world->command(commands);
     servo.state_ = world->advance(world->now() + fromSeconds(kPeriod)).arm;
     felt_n = std::max(felt_n, servo.state_->wrench_tool.head<3>().norm());

@@ -195,6 +195,26 @@ TEST_F(LidarTest, PointsCarryRisingTimesWithinOneTurn) {
   }
 }
 
+/// A box of 20 cm, 55 cm before a wall and 2 m before the LiDAR, which rises by the 7 cm between
+/// two of its lasers: each of them crosses the upper edge once, with a footprint of 4 mm.
+TEST_F(LidarTest, AHorizontalEdgeBetweenTwoLasersMakesMixedPixelsToo) {
+  world.config.lidar.dropout = world.config.lidar.noise_sigma_m = 0.0;
+  world.config.lidar.bias_sigma_m = 0.0;
+  world.state.obstacle = Eigen::Vector3d(13.45, 1.5, 1.0);
+  int between = 0;
+  for (int step = 0; step < 60; ++step) {
+    world.putFlangePart(world.arena.robot.X_flange_lidar,
+                        makePose({11.35, 1.5, 1.0 + 0.0012 * step}, {0, 0, 0}));
+    LidarSensor sensor(world.config.lidar, world.robot, world.arena.robot, 1);
+    const auto cloud = scan(sensor);
+    for (std::size_t i = 0; i < cloud->size(); ++i) {
+      const bool at_box = cloud->x[i] > 2.05F && cloud->x[i] < 2.5F;  // not on it, not on the wall
+      between += at_box && std::fabs(cloud->y[i]) < 0.07F ? 1 : 0;    // its sides are at 0.1 m
+    }
+  }
+  EXPECT_GT(between, 50);
+}
+
 TEST_F(LidarTest, AcrylicReturnsAFewRaysOnly) {
   world.config.lidar.dropout = 0.0;
   // One metre from the back of the fire box, between its frame bars there is nothing but acrylic.

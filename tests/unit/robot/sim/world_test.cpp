@@ -100,6 +100,53 @@ TEST_F(WorldTest, NobodyBrakesTheBaseHarderThanItsDrivesCan) {
   EXPECT_NEAR(after, before - 0.5, 0.03) << "2 m/s^2 for 0.25 s; the speed loop lags a little";
 }
 
+TEST_F(WorldTest, ThePlateIsLitByTheMissionsClockOnceAndForAll) {
+  const auto world = make();
+  const auto plateAfter = [&](double seconds, const WorldCommands& commands) {
+    world->command(commands);
+    (void)world->advance(world->now() + fromSeconds(seconds));
+    return world->truth().plate_c;
+  };
+  WorldCommands start, reset;
+  start.start_clock = true;
+  reset.request_reset = true;
+  EXPECT_EQ(plateAfter(5.0, {}), 25.0) << "nobody has started the clock";
+  EXPECT_NEAR(plateAfter(6.0, start), 25.0 + 105.0 * (1.0 - std::exp(-0.1)), 0.1);
+  EXPECT_NEAR(plateAfter(6.0, start), 25.0 + 105.0 * (1.0 - std::exp(-0.2)), 0.1) << "a resume";
+  EXPECT_NEAR(plateAfter(6.0, reset), 25.0 + 105.0 * (1.0 - std::exp(-0.3)), 0.1);
+}
+
+TEST_F(WorldTest, TheArmYieldsToLessWithinAMetreOfTheBuilding) {
+  const auto world = make();
+  EXPECT_EQ(drive(*world, {0, 0, 0}, 0.1).arm.safety, ArmSafetyMode::Normal);
+  // The building begins at x = 4.9; the head stands at about 0.6 m before the base's middle.
+  EXPECT_EQ(drive(*world, {1, 0, 0}, 4.5).arm.safety, ArmSafetyMode::Reduced);
+  EXPECT_GT(world->truth().X_map_base.translation().x(), 3.0);
+}
+
+TEST_F(WorldTest, TheBatteryEmptiesAndThenNothingMoves) {
+  WorldConfig config;
+  config.base.battery_ah = 0.03;  // 15 A standing: seven seconds
+  const auto world = make(config);
+  const BaseState full = drive(*world, {0.5, 0, 0}, 2.0).base;
+  EXPECT_NEAR(full.battery_v, 32.0, 1.2);
+  EXPECT_GT(full.battery_a, 15.0) << "it drives";
+  const BaseState low = drive(*world, {0.5, 0, 0}, 3.0).base;
+  EXPECT_LT(low.battery_v, full.battery_v - 1.0);
+  const WorldReport empty = drive(*world, {0.5, 0, 0}, 5.0);
+  EXPECT_LT(speed(empty), 0.01);
+  EXPECT_FALSE(empty.arm.powered);
+  EXPECT_LT(empty.base.battery_v, 24.5);
+  EXPECT_NEAR(empty.base.battery_a, 0.0, 0.5);
+}
+
+TEST_F(WorldTest, ABatteryLastsAboutAnHourOfStanding) {
+  WorldConfig config;
+  const auto world = make(config);
+  const double before = drive(*world, {0, 0, 0}, 1.0).base.battery_a;
+  EXPECT_NEAR(config.base.battery_ah / before * 60.0, 80.0, 15.0) << "minutes; driving takes more";
+}
+
 TEST_F(WorldTest, ArmTracksASmoothMotionAndHoldsAfterIt) {
   const auto world = make();
   const Vector6d from = RobotGeometry::radians(world->robot().q_park_deg);

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/geom/camera_model.h"
 #include "tests/support/paths.h"
 
 namespace kiln {
@@ -20,13 +21,14 @@ T loaded(const std::string& file) {
 
 constexpr double kFramePeriod_s = 1.0 / 8.77;
 constexpr double kThreshold_c = 75.0;
+constexpr double kReported_c = 40.0;
 constexpr double kKelvin = 273.15;
 
 }  // namespace
 
 void FakeHeatSweep::add(const HeatDetections& detections, const Eigen::Isometry3d&,
                         const Eigen::Vector3d&) {
-  if (detections.blobs.empty()) return;
+  if (detections.blobs.empty() || detections.blobs[0].rejection != HeatRejection::None) return;
   ++views_;
   stamp_ = detections.stamp;
 }
@@ -167,11 +169,20 @@ void FireRig::takeImage() {
   seen.threshold_k = kThreshold_c + kKelvin;
   seen.usable = !camera_frozen;
   if (camera_frozen) seen.refusal = "frozen";
-  const double plate_c =
-      25.0 + 105.0 * (1.0 - std::exp(-toSeconds(clock.now() - plate_lit_) / 60.0));
-  if (seen.usable && burning_place >= 0 && !hidden && plate_c > kThreshold_c &&
-      plateInView(X_map_thermal))
-    seen.blobs.emplace_back().peak_k = plate_c + kKelvin;
+  const double plate_c = steady_c.value_or(
+      25.0 + 105.0 * (1.0 - std::exp(-toSeconds(clock.now() - plate_lit_) / 60.0)));
+  if (seen.usable && burning_place >= 0 && !hidden && plate_c > kReported_c &&
+      plateInView(X_map_thermal)) {
+    HeatBlob& blob = seen.blobs.emplace_back();
+    blob.peak_k = plate_c + kKelvin;
+    if (plate_c < kThreshold_c) blob.rejection = HeatRejection::TooCool;
+    const auto px = CameraModel::fromHorizontalFov(160, 120, 57.0 * M_PI / 180.0)
+                        .project(X_map_thermal.inverse() * sweep.p_plate_map);
+    if (px) {
+      blob.u = px->x();
+      blob.v = px->y();
+    }
+  }
   mission->onDetections(seen, X_map_thermal);
 }
 

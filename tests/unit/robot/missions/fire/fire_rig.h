@@ -97,7 +97,8 @@ class FireRig {
   std::unique_ptr<MissionHost> host;
 
   int burning_place = 0;
-  bool hidden = false;  ///< something stands before the plate
+  std::optional<double> steady_c;  ///< the plate is so warm and stays so, degC
+  bool hidden = false;             ///< something stands before the plate
   bool camera_dead = false;
   bool camera_frozen = false;
   bool drove_extended = false;  ///< the base moved while the arm was not in its drive pose

@@ -55,6 +55,29 @@ TEST(ArmCollision, SeesDeckTanksGroundAndItself) {
   EXPECT_GT(up.distance_m, 0.0) << up.what;
 }
 
+TEST(ArmCollision, TheHoseIsKeptFromWhatStandsBesideTheArm) {
+  const RobotGeometry robot = loadBob();
+  ArmCollision collision(robot);
+  const Vector6d q = RobotGeometry::radians({0, -90, 0, 0, 0, 0});  // upright
+  const ArmShapes arm = collision.shapesAt(q);
+  const Capsule& upper_arm = arm.links[1];
+  const Capsule& hose = arm.links[6];
+  EXPECT_STREQ(ArmShapes::nameOf(6), "hose on upper arm");
+  // 8 mm and its radius of 12 mm beside the link's surface, all along.
+  const Eigen::Vector3d beside = hose.a - upper_arm.a;
+  EXPECT_NEAR(beside.norm(), upper_arm.radius + 0.008, 1e-9);
+  EXPECT_LT((hose.b - upper_arm.b - beside).norm(), 1e-9);
+  BoxConfig box;
+  box.name = "board";
+  const Eigen::Vector3d middle =
+      0.5 * (upper_arm.a + upper_arm.b) + (upper_arm.radius + 0.035) * beside.normalized();
+  box.center.xyz_m = {middle.x(), middle.y(), middle.z()};
+  box.size_m = {0.01, 0.01, 0.01};
+  collision.setScene({box}, {});
+  EXPECT_LT(collision.clearance(q).distance_m, 0.03) << "35 mm beside the bare link";
+  EXPECT_EQ(collision.clearance(q).what, "hose on upper arm to board");
+}
+
 TEST(ArmCollision, SceneBoxesAreSeenFromTheBase) {
   const RobotGeometry robot = loadBob();
   ArmCollision collision(robot);
