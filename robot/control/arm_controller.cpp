@@ -97,7 +97,10 @@ struct ArmController::Impl {
 
   /// A device that was away has been switched off in between, for all that is known.
   void setUpForceSensor(Stamp now, const ArmState& state, double dt) {
-    if (toSeconds(now - state.stamp) > kDeviceAway_s) force_sensor = ForceSensor::Unknown;
+    if (toSeconds(now - state.stamp) > kDeviceAway_s) {
+      force_sensor = ForceSensor::Unknown;
+      return;
+    }
     rest_s = commandRests() && state.qd.cwiseAbs().maxCoeff() < kRestSpeed ? rest_s + dt : 0.0;
     switch (force_sensor) {
       case ForceSensor::Unknown: {

@@ -21,8 +21,8 @@ TEST(ArmBlocked, WithdrawsAfterAContactAndSearchesAnew) {
 
 TEST(ArmBlocked, GivesThePlaceUpTheSecondTime) {
   FireRig rig({.burning_place = 1});
-  for (int i = 0; i < 2; ++i) {
-    rig.arm.failNext("pose", "contact");
+  for (const char* kind : {"pose", "cartesian"}) {
+    rig.arm.failNext(kind, "contact");
     ASSERT_TRUE(rig.runToState("ArmBlocked"));
     ASSERT_TRUE(rig.runUntil([&rig] { return rig.state() != "ArmBlocked"; }, 10.0));
   }

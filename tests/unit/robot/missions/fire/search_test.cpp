@@ -36,6 +36,7 @@ TEST(FireSearch, WhatIsMerelyWarmAtThePlaceIsNotWaitedFor) {
 
 TEST(FireSearch, RefusesAHeatSourceFarFromTheConfiguredPlace) {
   FireRig rig;
+  rig.steady_c = 120.0;
   rig.sweep.p_plate_map += Eigen::Vector3d(0.0, 0.60, 0.0);
   ASSERT_TRUE(rig.runUntil([&rig] { return rig.place(0).visited; }, 200.0));
   EXPECT_NE(rig.place(0).outcome.find("off its place"), std::string::npos) << rig.place(0).outcome;
