@@ -21,6 +21,18 @@ void BoxConfig::visit(ConfigArchive& a) {
   a.field("size_m", size_m, "m", 0.001, 1e3, "full lengths along x, y, z");
 }
 
+void ArmShapeConfig::visit(ConfigArchive& a) {
+  a.field("name", name, "for messages");
+  a.field("link", link, "", 0, 6, "moves with the DH frame behind this joint; 0: fixed in armbase");
+  a.field("from_m", from_m, "m", -2, 2, "one end of its axis in that frame");
+  a.field("to_m", to_m, "m", -2, 2, "the other end");
+  a.field("radius_m", radius_m, "m", 0.001, 0.5, "");
+}
+
+Capsule ArmShapeConfig::capsule() const {
+  return {{from_m[0], from_m[1], from_m[2]}, {to_m[0], to_m[1], to_m[2]}, radius_m};
+}
+
 void RobotGeometry::visit(ConfigArchive& a) {
   a.field("length_m", length_m, "m", 0.2, 5, "footprint along X");
   a.field("width_m", width_m, "m", 0.2, 5, "footprint along Y");
@@ -40,7 +52,7 @@ void RobotGeometry::visit(ConfigArchive& a) {
   a.section("X_flange_tool", X_flange_tool, "magnet face");
   a.section("X_base_operatorcamera", X_base_operatorcamera, "rear-top camera for the operator");
   a.list("head", head, "boxes fixed in flange");
-  a.field("link_radius_m", link_radius_m, "m", 0.01, 0.5, "capsule radius of each arm link");
+  a.list("arm_shapes", arm_shapes, "capsules of the arm and of what is fixed to it");
   a.field("q_park_deg", q_park_deg, "deg", -360, 360, "arm folded above the deck");
   a.field("q_drive_deg", q_drive_deg, "deg", -360, 360, "LiDAR upright and clear");
 }
@@ -53,6 +65,20 @@ Vector6d RobotGeometry::radians(const std::vector<double>& q_deg) {
 
 Eigen::Isometry3d RobotGeometry::X_base_flange(const Vector6d& q) const {
   return X_base_armbase.pose() * arm.forward(q);
+}
+
+std::vector<Capsule> RobotGeometry::armCapsules(const Vector6d& q,
+                                                const Eigen::Isometry3d& X_frame_armbase) const {
+  const auto frames = arm.frames(q);
+  std::vector<Capsule> out;
+  out.reserve(arm_shapes.size());
+  for (const ArmShapeConfig& shape : arm_shapes) {
+    const Eigen::Isometry3d X =
+        shape.link == 0 ? X_frame_armbase
+                        : X_frame_armbase * frames[static_cast<std::size_t>(shape.link - 1)];
+    out.push_back(shape.capsule().in(X));
+  }
+  return out;
 }
 
 }  // namespace kiln

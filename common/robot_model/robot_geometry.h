@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/config/config_archive.h"
+#include "common/geom/capsule.h"
 #include "common/geom/pose.h"
 #include "common/robot_model/ur_kinematics.h"
 
@@ -27,6 +28,17 @@ struct BoxConfig {
   void visit(ConfigArchive& a);
 };
 
+/// A piece of the arm's hull: a capsule that moves with a link.
+struct ArmShapeConfig {
+  std::string name;
+  /// 1 to 6: moves with the Denavit-Hartenberg frame behind that joint; 0: stands in `armbase`.
+  int link = 0;
+  std::vector<double> from_m{0, 0, 0}, to_m{0, 0, 0};  ///< ends of its axis in that frame
+  double radius_m = 0.05;
+  void visit(ConfigArchive& a);
+  [[nodiscard]] Capsule capsule() const;
+};
+
 /// Nominal geometry of Bob: what the autonomy and the station believe. The simulator perturbs its
 /// own copy. File: resources/robot_model/bob.yaml. Frames: common/geom/frames.h.
 struct RobotGeometry {
@@ -42,9 +54,8 @@ struct RobotGeometry {
   PoseConfig X_base_armbase;
   PoseConfig X_flange_lidar, X_flange_thermal, X_flange_rgb, X_flange_nozzle, X_flange_tool;
   PoseConfig X_base_operatorcamera;
-  std::vector<BoxConfig> head;  ///< end-effector boxes, in flange
-  std::vector<double> link_radius_m{0.10, 0.09, 0.07,
-                                    0.07, 0.06, 0.06};  ///< capsules along the arm's links
+  std::vector<BoxConfig> head;             ///< end-effector boxes, in flange
+  std::vector<ArmShapeConfig> arm_shapes;  ///< hull of the arm and of what is fixed to it
   std::vector<double> q_park_deg{0, 0, 0, 0,
                                  0, 0};  ///< arm folded above the deck, for driving through doors
   std::vector<double> q_drive_deg{0, 0, 0, 0, 0, 0};  ///< LiDAR upright and clear, for driving
@@ -57,6 +68,9 @@ struct RobotGeometry {
   [[nodiscard]] static Vector6d radians(const std::vector<double>& q_deg);
   /// X_base_flange for joint angles q.
   [[nodiscard]] Eigen::Isometry3d X_base_flange(const Vector6d& q) const;
+  /// arm_shapes for joint angles q, in their order, in the frame from which the arm is seen.
+  [[nodiscard]] std::vector<Capsule> armCapsules(const Vector6d& q,
+                                                 const Eigen::Isometry3d& X_frame_armbase) const;
 };
 
 }  // namespace kiln

@@ -12,7 +12,7 @@ Result<RobotGeometry> loadGeometry(const std::string& resource) {
   return loadComplete<RobotGeometry>(
       resource, {"length_m", "width_m", "wheel_radius_m", "wheel_x_m", "wheel_y_m",
                  "steer_limit_deg", "steer_rate_deg_s", "max_wheel_speed_mps", "max_decel_mps2",
-                 "body", "X_base_armbase", "head", "link_radius_m", "q_park_deg", "q_drive_deg"});
+                 "body", "X_base_armbase", "head", "arm_shapes", "q_park_deg", "q_drive_deg"});
 }
 
 }  // namespace kiln

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "robot/sim/arm_hull.h"
+
 namespace kiln::sim {
 namespace {
 
@@ -147,16 +149,16 @@ void writeArmLink(Writer& w, const WorldConfig& config, const RobotGeometry& rob
       R"(<inertial pos="{:.6g} {:.6g} {:.6g}" mass="{:.6g}" diaginertia="{:.6g} {:.6g} {:.6g}"/>)",
       link.com_m.x(), link.com_m.y(), link.com_m.z(), link.mass_kg, link.inertia_kgm2.x(),
       link.inertia_kgm2.y(), link.inertia_kgm2.z());
-  // 5 % thinner than the nominal capsule: the planner's model encloses the true arm.
-  w.line(
-      R"(<geom name="arm link {}" type="capsule" size="{:.6g}" fromto="0 0 0 {:.6g} 0 {:.6g}" {}/>)",
-      i + 1, 0.95 * robot.link_radius_m[i], k.a[i], k.d[i], kRobotBits);
-  if (i != 1 && i != 2) return;
-  // The hose runs along upper arm and forearm.
-  const double beside = 0.95 * robot.link_radius_m[i] + kHoseGap_m;
-  w.line(
-      R"(<geom name="hose {}" type="capsule" size="{:.6g}" fromto="0 0 {:.6g} {:.6g} 0 {:.6g}" {} mass="0"/>)",
-      i + 1, kHoseRadius_m, beside, k.a[i], k.d[i] + beside, kRobotBits);
+  const Eigen::Isometry3d X_joint_end(Eigen::Translation3d(k.a[i], 0, k.d[i]) *
+                                      Eigen::AngleAxisd(k.alpha[i], Eigen::Vector3d::UnitX()));
+  for (const HullPart& part : armHull()) {
+    if (part.link != static_cast<int>(i) + 1) continue;
+    const Eigen::Vector3d a = X_joint_end * part.from, b = X_joint_end * part.to;
+    w.line(
+        R"(<geom name="{}{}" type="capsule" size="{:.6g}" fromto="{:.6g} {:.6g} {:.6g} {:.6g} {:.6g} {:.6g}" {} mass="0"/>)",
+        part.material == Material::ArmLink ? "arm " : "", part.name, part.radius, a.x(), a.y(),
+        a.z(), b.x(), b.y(), b.z(), kRobotBits);
+  }
 }
 
 void writeHead(Writer& w, const TrueArena& arena, const RobotGeometry& robot) {

@@ -6,9 +6,6 @@
 
 namespace kiln::sim {
 
-/// The hose on upper arm and forearm, for physics and rays: its axis beside the link's surface.
-inline constexpr double kHoseRadius_m = 0.012, kHoseGap_m = 0.008;
-
 /// Each side of the scripted arm obstacle (arm_obstacle.h), for physics and rays.
 inline constexpr double kObstacleSize_m = 0.2;
 
@@ -27,8 +24,7 @@ inline constexpr const char* kJoint[6] = {"shoulder_pan", "shoulder_lift", "elbo
 
 /// The MuJoCo model (MJCF) of one drawn world: ground, arena boxes, robot with four steered hub
 /// wheels and a UR10e. Link masses, centres of mass and inertias are the vendor's. The robot's
-/// bodies collide as boxes and as capsules along the nominal links; only the wheels are meant to
-/// touch anything.
+/// bodies collide as boxes, its arm as arm_hull.h; only the wheels are meant to touch anything.
 [[nodiscard]] std::string mjcf(const WorldConfig& config, const TrueArena& arena,
                                const RobotGeometry& robot);
 

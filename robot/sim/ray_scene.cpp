@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "robot/scene/primitive_meshes.h"
+#include "robot/sim/arm_hull.h"
 #include "robot/sim/mjcf.h"
 
 namespace kiln::sim {
@@ -156,20 +157,8 @@ void RayScene::addRobot(const TrueArena& arena) {
   for (const BoxConfig& part : robot_.body) {
     box(part, 0, part.name.starts_with("tank") ? Material::Tank : Material::Chassis, mask::kRobot);
   }
-  const UrKinematics& k = robot_.arm;
-  for (std::size_t i = 0; i < 6; ++i) {
-    // The link from frame i to frame i + 1, seen from frame i + 1 (its end).
-    const Eigen::Isometry3d X_end_start = (Eigen::Translation3d(k.a[i], 0, k.d[i]) *
-                                           Eigen::AngleAxisd(k.alpha[i], Eigen::Vector3d::UnitX()))
-                                              .inverse(Eigen::Isometry);
-    const double radius = 0.95 * robot_.link_radius_m[i];
-    const Eigen::Vector3d start = X_end_start.translation();
-    addCapsule(static_cast<int>(i) + 1, start, Eigen::Vector3d::Zero(), radius, Material::ArmLink);
-    if (i == 1 || i == 2) {  // the hose runs along the upper arm and the forearm
-      const Eigen::Vector3d beside(0, 0, radius + kHoseGap_m);
-      addCapsule(static_cast<int>(i) + 1, start + beside, beside, kHoseRadius_m, Material::Hose);
-    }
-  }
+  for (const HullPart& part : armHull())
+    addCapsule(part.link, part.from, part.to, part.radius, part.material);
   for (const BoxConfig& part : robot_.head) {
     box(part, 6, Material::Head, part.name == "lidar" ? mask::kLidarHousing : mask::kGripper);
   }

@@ -19,14 +19,8 @@ Eigen::Isometry3d alongSegment(const Eigen::Vector3d& from, const Eigen::Vector3
   return X;
 }
 
-/// Arm base and the six joint frames' origins: what the links are strung along.
-std::array<Eigen::Vector3d, 7> jointOrigins(const UrKinematics& arm, const Vector6d& q) {
-  const auto X = arm.frames(q);
-  std::array<Eigen::Vector3d, 7> p;
-  p[0] = Eigen::Vector3d::Zero();
-  for (std::size_t i = 0; i < 6; ++i) p[i + 1] = X[i].translation();
-  return p;
-}
+/// A capsule this short is the barrel of a joint: drawn as such.
+bool isBarrel(const Capsule& c) { return (c.b - c.a).norm() < 2.5 * c.radius; }
 
 Eigen::Vector3d sizeOf(const BoxConfig& box) {
   return {box.size_m[0], box.size_m[1], box.size_m[2]};
@@ -43,29 +37,15 @@ RobotShape::RobotShape(const RobotGeometry& geometry) : geometry_(geometry) {
   }
   const double r = geometry_.wheel_radius_m;
   for (int i = 0; i < 4; ++i) parts_.push_back({Form::Cylinder, Role::Wheel, {r, r, kWheelWidth}});
-  const auto p = jointOrigins(geometry_.arm, Vector6d::Zero());
-  for (std::size_t i = 0; i < 6; ++i) {
-    const double radius = geometry_.link_radius_m[i];
-    parts_.push_back({Form::Capsule, Role::Arm, {radius, radius, (p[i + 1] - p[i]).norm()}});
-  }
-  for (std::size_t i = 0; i < 3; ++i) {  // barrels of shoulder, elbow and wrist 1, seen on every UR
-    const double radius = 1.08 * geometry_.link_radius_m[i];
-    parts_.push_back({Form::Cylinder, Role::Joint, {radius, radius, 2.3 * radius}});
+  for (const ArmShapeConfig& shape : geometry_.arm_shapes) {
+    const Capsule c = shape.capsule();
+    parts_.push_back({Form::Capsule,
+                      isBarrel(c) ? Role::Joint : Role::Arm,
+                      {c.radius, c.radius, (c.b - c.a).norm()}});
   }
   for (const BoxConfig& box : geometry_.head)
     parts_.push_back({Form::Box, Role::Head, sizeOf(box)});
   parts_.push_back({Form::Cylinder, Role::Nozzle, {kNozzleRadius, kNozzleRadius, kNozzleLength}});
-}
-
-std::vector<Eigen::Isometry3d> RobotShape::armPoses(const Vector6d& q) const {
-  const Eigen::Isometry3d X_base_armbase = geometry_.X_base_armbase.pose();
-  const auto p = jointOrigins(geometry_.arm, q);
-  const auto X = geometry_.arm.frames(q);
-  std::vector<Eigen::Isometry3d> out;
-  for (std::size_t i = 0; i < 6; ++i) out.push_back(X_base_armbase * alongSegment(p[i], p[i + 1]));
-  for (std::size_t i = 0; i < 3; ++i)
-    out.push_back(X_base_armbase * X[i]);  // Z is the next joint's axis
-  return out;
 }
 
 std::vector<Eigen::Isometry3d> RobotShape::poses(const Vector6d& q,
@@ -80,7 +60,8 @@ std::vector<Eigen::Isometry3d> RobotShape::poses(const Vector6d& q,
     out.push_back(
         makePose(hub, {M_PI / 2, 0.0, steer[i]}));  // cylinder axis across the rolling direction
   }
-  for (const Eigen::Isometry3d& X : armPoses(q)) out.push_back(X);
+  for (const Capsule& c : geometry_.armCapsules(q, geometry_.X_base_armbase.pose()))
+    out.push_back(alongSegment(c.a, c.b));
   const Eigen::Isometry3d X_base_flange = geometry_.X_base_flange(q);
   for (const BoxConfig& box : geometry_.head) out.push_back(X_base_flange * box.center.pose());
   const Eigen::Isometry3d X_base_nozzle = X_base_flange * geometry_.X_flange_nozzle.pose();

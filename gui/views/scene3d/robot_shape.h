@@ -33,7 +33,6 @@ class RobotShape {
   [[nodiscard]] const RobotGeometry& geometry() const { return geometry_; }
 
  private:
-  [[nodiscard]] std::vector<Eigen::Isometry3d> armPoses(const Vector6d& q) const;
   RobotGeometry geometry_;
   std::vector<RobotPart> parts_;
 };

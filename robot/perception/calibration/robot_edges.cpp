@@ -68,18 +68,10 @@ Robot robotAt(const RobotGeometry& geometry, const Vector6d& q) {
   };
   for (const BoxConfig& box : geometry.body) add(box, Eigen::Isometry3d::Identity(), false);
   for (const BoxConfig& box : geometry.head) add(box, X * frames[5], true);
-  Eigen::Vector3d from = X.translation();
-  for (std::size_t i = 0; i < 6; ++i) {
-    const Eigen::Isometry3d parent = i == 0 ? Eigen::Isometry3d::Identity() : frames[i - 1];
-    const Eigen::Vector3d corner = X * (parent * Eigen::Vector3d(0, 0, geometry.arm.d[i]));
-    const Eigen::Vector3d end = X * frames[i].translation();
-    const double radius = geometry.link_radius_m[std::min(i, geometry.link_radius_m.size() - 1)];
-    out.rods.push_back({from, corner, radius, false});
-    out.rods.push_back({corner, end, radius, false});
-    from = end;
-  }
+  for (const Capsule& c : geometry.armCapsules(q, X))
+    out.rods.push_back({c.a, c.b, c.radius, false});
   const Eigen::Vector3d tip = X * frames[5] * Eigen::Vector3d(0, 0, 0.25);
-  out.rods.push_back({from, tip, 0.16, true});
+  out.rods.push_back({X * frames[5].translation(), tip, 0.16, true});
   return out;
 }
 

@@ -45,26 +45,14 @@ SelfFilter::Body SelfFilter::bodyAt(const Vector6d& q, std::span<const BoxConfig
   for (const BoxConfig& box : geometry_.body)
     addBox(box, X_lidar_armbase * X_base_armbase_.inverse());
 
-  Eigen::Vector3d previous = X_lidar_armbase.translation();
-  for (std::size_t i = 0; i < joints.size(); ++i) {
-    // A UR link leaves its joint sideways: the corner between two DH frames lies d along the
-    // joint's axis.
-    const Eigen::Isometry3d& parent = i == 0 ? Eigen::Isometry3d::Identity() : joints[i - 1];
-    const Eigen::Vector3d corner =
-        X_lidar_armbase * (parent * Eigen::Vector3d(0, 0, geometry_.arm.d[i]));
-    const Eigen::Vector3d end = X_lidar_armbase * joints[i].translation();
-    const double radius =
-        geometry_.link_radius_m[std::min(i, geometry_.link_radius_m.size() - 1)] + config_.margin_m;
-    for (const auto& [from, to] : {std::pair{previous, corner}, std::pair{corner, end}}) {
-      const Eigen::Vector3f along = (to - from).cast<float>();
-      const float length2 = along.squaredNorm();
-      if (length2 < 1e-8f && i > 0) continue;
-      body.capsules.push_back({from.cast<float>(), along, length2 > 1e-8f ? 1.0f / length2 : 0.0f,
-                               static_cast<float>(radius * radius)});
-      const double far = std::max(from.norm(), to.norm()) + radius;
-      body.reach2 = std::max(body.reach2, static_cast<float>(far * far));
-    }
-    previous = end;
+  for (const kiln::Capsule& c : geometry_.armCapsules(q, X_lidar_armbase)) {
+    const double radius = c.radius + config_.margin_m;
+    const Eigen::Vector3f along = (c.b - c.a).cast<float>();
+    const float length2 = along.squaredNorm();
+    body.capsules.push_back({c.a.cast<float>(), along, length2 > 1e-8f ? 1.0f / length2 : 0.0f,
+                             static_cast<float>(radius * radius)});
+    const double far = std::max(c.a.norm(), c.b.norm()) + radius;
+    body.reach2 = std::max(body.reach2, static_cast<float>(far * far));
   }
   return body;
 }

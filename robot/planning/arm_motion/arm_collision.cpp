@@ -9,28 +9,16 @@
 namespace kiln {
 namespace {
 
-constexpr std::size_t kUpperArm = 1, kForearm = 2, kHoses = 6;
-constexpr std::array<const char*, 8> kLink = {"arm column",        "upper arm",      "forearm",
-                                              "wrist 1",           "wrist 2",        "wrist 3",
-                                              "hose on upper arm", "hose on forearm"};
-constexpr double kHoseRadius_m = 0.013, kHoseGap_m = 0.008;  // its axis, beside the link's surface
-constexpr double kMinStep = 0.004;                           // m; shortest stride of the path check
-// Capsules of links that can meet; neighbours in the chain always touch.
-constexpr std::array<std::array<std::size_t, 2>, 13> kSelfPairs = {{{0, 2},
-                                                                    {0, 3},
-                                                                    {0, 4},
-                                                                    {0, 5},
-                                                                    {1, 3},
-                                                                    {1, 4},
-                                                                    {1, 5},
-                                                                    {2, 5},
-                                                                    {6, 3},
-                                                                    {6, 4},
-                                                                    {6, 5},
-                                                                    {7, 0},
-                                                                    {7, 5}}};
-// Wrists 2 and 3 carry the head.
-constexpr std::array<std::size_t, 6> kHeadMeets = {0, 1, 2, 3, 6, 7};
+constexpr double kMinStep = 0.004;  // m; shortest stride of the path check
+constexpr double kFar_m = 1e3;      // the ground goes on
+constexpr int kFlangeLink = 7;      // what is fixed to the flange, after the six links
+
+/// Neighbours touch by design, along the wrist also the neighbours' neighbours. @pre first <=
+/// second
+bool canMeet(int first, int second) {
+  const int apart = second - std::max(first, 1);
+  return apart > 2 || (apart == 2 && first <= 2);
+}
 
 Eigen::Vector3d sizeOf(const BoxConfig& box) {
   return {box.size_m[0], box.size_m[1], box.size_m[2]};
@@ -38,50 +26,71 @@ Eigen::Vector3d sizeOf(const BoxConfig& box) {
 
 }  // namespace
 
-const char* ArmShapes::nameOf(std::size_t link) { return kLink[link]; }
-
+/// Looks for the pair of parts with the least room: the nearest one or, on a way, the one that
+/// could be the first to meet.
 struct ArmCollision::Query : ArmShapes {
+  std::vector<Eigen::AlignedBox3d> bounds;  ///< of the links
   double interest_m = 0.2;
-  double nearest = INFINITY;
-  const char* first = "";
-  const char* second = "";
+  /// On a way: how far a part that moves with each link can get, m. Two parts come nearer to one
+  /// another by the joints between them alone.
+  const std::array<double, kFlangeLink + 1>* travel_m = nullptr;
+  double clearance_m = 0.0;  ///< on a way
+  double least = INFINITY;   ///< m; on a way the share of it that is surely free, negative: blocked
+  const std::string* first = nullptr;
+  const std::string* second = nullptr;
 
-  void offer(double d, const char* a, const char* b) {
-    if (d >= nearest) return;
-    nearest = d;
-    first = a;
-    second = b;
+  [[nodiscard]] bool blocked() const { return travel_m != nullptr && least < 0.0; }
+  [[nodiscard]] double rate(double distance_m, int link_a, int link_b) const {
+    if (travel_m == nullptr) return distance_m;
+    const double way_m = std::abs((*travel_m)[static_cast<std::size_t>(link_a)] -
+                                  (*travel_m)[static_cast<std::size_t>(link_b)]);
+    return (distance_m - clearance_m) / std::max(way_m, 1e-9);
   }
-  void test(std::size_t link, const OrientedBox& box) {
-    const Capsule& c = links[link];
-    const double far = (0.5 * (c.a + c.b) - box.X_frame_box.translation()).norm() -
-                       0.5 * (c.b - c.a).norm() - c.radius - box.sphere_radius;
-    const double bound = std::min(nearest, interest_m);
-    offer(far > bound ? far : kiln::distance(c, box), kLink[link], box.name.c_str());
+  /// @param exactly  double(): their distance, m; called only if the bounds allow it to matter.
+  template <class Distance>
+  void test(const Eigen::AlignedBox3d& bounds_a, int link_a, const std::string& name_a,
+            const Eigen::AlignedBox3d& bounds_b, int link_b, const std::string& name_b,
+            const Distance& exactly) {
+    const double at_least_m = bounds_a.exteriorDistance(bounds_b);
+    double found = rate(at_least_m, link_a, link_b);
+    if (found >= least) return;
+    if (at_least_m < interest_m) found = rate(exactly(), link_a, link_b);
+    if (found >= least) return;
+    least = found;
+    first = &name_a;
+    second = &name_b;
   }
-  void test(const OrientedBox& part, const OrientedBox& box) {
-    const double far = (part.X_frame_box.translation() - box.X_frame_box.translation()).norm() -
-                       part.sphere_radius - box.sphere_radius;
-    const double bound = std::min(nearest, interest_m);
-    offer(far > bound ? far : separation(part, box), part.name.c_str(), box.name.c_str());
+  void test(std::size_t i, const ArmShapeConfig& shape, const OrientedBox& box, int box_link) {
+    test(bounds[i], shape.link, shape.name, box.bounds, box_link, box.name,
+         [&] { return kiln::distance(links[i], box); });
   }
 };
 
 ArmCollision::ArmCollision(const RobotGeometry& robot)
-    : robot_(robot), X_base_armbase_(robot.X_base_armbase.pose()), radius_(robot.link_radius_m) {
+    : robot_(robot), X_base_armbase_(robot.X_base_armbase.pose()) {
   for (const BoxConfig& box : robot.body) {
     body_.push_back(makeBox(box.center.pose(), sizeOf(box), box.name));
   }
-  double head_reach = 0.0;
+  double beyond = 0.0;
   for (const BoxConfig& box : robot.head) {
     head_in_flange_.push_back(makeBox(box.center.pose(), sizeOf(box), box.name));
     const OrientedBox& added = head_in_flange_.back();
-    head_reach = std::max(head_reach, added.X_frame_box.translation().norm() + added.sphere_radius);
+    beyond = std::max(beyond, added.X_frame_box.translation().norm() + added.half.norm());
   }
-  // Chain length beyond each joint plus head or capsule radius: an upper bound of any lever arm.
-  double beyond = std::max(head_reach, radius_.back());
+  const std::vector<ArmShapeConfig>& shapes = robot.arm_shapes;
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    for (std::size_t k = 0; k < shapes.size(); ++k)
+      if (canMeet(shapes[i].link, shapes[k].link)) self_pairs_.push_back({i, k});
+  }
+  // Chain length beyond each joint plus the farthest point of head or hull: an upper bound of any
+  // lever arm.
   for (int i = 5; i >= 0; --i) {
     const auto k = static_cast<std::size_t>(i);
+    for (const ArmShapeConfig& shape : shapes) {
+      const Capsule c = shape.capsule();
+      if (shape.link == i + 1)
+        beyond = std::max(beyond, std::max(c.a.norm(), c.b.norm()) + c.radius);
+    }
     beyond += std::hypot(robot.arm.a[k], i == 0 ? 0.0 : robot.arm.d[k]);
     reach_[i] = beyond;
   }
@@ -95,96 +104,99 @@ void ArmCollision::setScene(const std::vector<BoxConfig>& boxes_map, const Pose2
   }
 }
 
-void ArmCollision::testScene(Query& query) const {
-  for (const OrientedBox& box : scene_) {
-    for (std::size_t link = 0; link < query.links.size(); ++link) query.test(link, box);
-    for (const OrientedBox& part : query.head) query.test(part, box);
-  }
-}
-
-void ArmCollision::testBody(Query& query) const {
-  for (const OrientedBox& box : body_) {
-    // The column stands on the deck.
-    for (std::size_t link = 1; link < query.links.size(); ++link) query.test(link, box);
-    for (const OrientedBox& part : query.head) query.test(part, box);
+void ArmCollision::testBoxes(Query& query, const std::vector<OrientedBox>& boxes,
+                             bool of_base) const {
+  for (const OrientedBox& box : boxes) {
+    if (query.blocked()) return;
+    for (std::size_t i = 0; i < query.links.size(); ++i)
+      if (!of_base || !standsStill(i)) query.test(i, robot_.arm_shapes[i], box, 0);
+    for (const OrientedBox& part : query.head) {
+      query.test(part.bounds, kFlangeLink, part.name, box.bounds, 0, box.name,
+                 [&] { return kiln::distance(part, box); });
+    }
   }
 }
 
 void ArmCollision::testSelf(Query& query) const {
-  for (const auto& [a, b] : kSelfPairs) {
-    query.offer(kiln::distance(query.links[a], query.links[b]), kLink[a], kLink[b]);
+  const std::vector<ArmShapeConfig>& shapes = robot_.arm_shapes;
+  for (const auto& [a, b] : self_pairs_) {
+    if (query.blocked()) return;
+    query.test(query.bounds[a], shapes[a].link, shapes[a].name, query.bounds[b], shapes[b].link,
+               shapes[b].name,
+               [&, a = a, b = b] { return kiln::distance(query.links[a], query.links[b]); });
   }
   for (const OrientedBox& part : query.head) {
-    for (const std::size_t link : kHeadMeets) query.test(link, part);
+    for (std::size_t i = 0; i < query.links.size(); ++i)
+      if (canMeet(shapes[i].link, kFlangeLink)) query.test(i, shapes[i], part, kFlangeLink);
   }
 }
 
 void ArmCollision::testGround(Query& query) const {
-  for (std::size_t link = 1; link < query.links.size(); ++link) {
-    const Capsule& c = query.links[link];
-    query.offer(std::min(c.a.z(), c.b.z()) - c.radius, kLink[link], "ground");
-  }
-  for (const OrientedBox& part : query.head) {
-    const Eigen::Vector3d down = part.X_frame_box.linear().row(2).transpose();
-    query.offer(part.X_frame_box.translation().z() - down.cwiseAbs().dot(part.half),
-                part.name.c_str(), "ground");
-  }
+  static const std::string kGround = "ground";
+  const Eigen::AlignedBox3d ground(Eigen::Vector3d::Constant(-kFar_m),
+                                   Eigen::Vector3d(kFar_m, kFar_m, 0.0));
+  const auto test = [&](const Eigen::AlignedBox3d& bounds, int link, const std::string& name) {
+    query.test(bounds, link, name, ground, 0, kGround, [&] { return bounds.min().z(); });
+  };
+  for (std::size_t i = 0; i < query.links.size(); ++i)
+    if (!standsStill(i)) test(query.bounds[i], robot_.arm_shapes[i].link, nameOf(i));
+  for (const OrientedBox& part : query.head) test(part.bounds, kFlangeLink, part.name);
 }
 
 ArmShapes ArmCollision::shapesAt(const Vector6d& q) const {
-  ArmShapes out;
-  const auto frames = robot_.arm.frames(q);
-  Eigen::Vector3d from = X_base_armbase_.translation();
-  for (std::size_t i = 0; i < 6; ++i) {
-    const Eigen::Vector3d to = X_base_armbase_ * frames[i].translation();
-    out.links[i] = {from, to, radius_[i]};
-    from = to;
-  }
-  for (const std::size_t link : {kUpperArm, kForearm}) {
-    const Eigen::Vector3d beside =
-        (radius_[link] + kHoseGap_m) * (X_base_armbase_.linear() * frames[link].linear().col(2));
-    const Capsule& c = out.links[link];
-    out.links[kHoses + link - kUpperArm] = {c.a + beside, c.b + beside, kHoseRadius_m};
-  }
-  const Eigen::Isometry3d X_base_flange = X_base_armbase_ * frames[5];
+  ArmShapes out{robot_.armCapsules(q, X_base_armbase_), {}};
+  const Eigen::Isometry3d X_base_flange = X_base_armbase_ * robot_.arm.forward(q);
   for (const OrientedBox& part : head_in_flange_) {
-    out.head.push_back(part);
-    out.head.back().X_frame_box = X_base_flange * part.X_frame_box;
+    out.head.push_back(makeBox(X_base_flange * part.X_frame_box, 2.0 * part.half, part.name));
   }
   return out;
 }
 
-ArmCollision::Query ArmCollision::evaluate(const Vector6d& q, double interest_m) const {
-  Query query;
+void ArmCollision::evaluate(Query& query, const Vector6d& q) const {
   static_cast<ArmShapes&>(query) = shapesAt(q);
-  query.interest_m = interest_m;
-  testBody(query);
-  testSelf(query);
+  for (const Capsule& link : query.links) query.bounds.push_back(boundsOf(link));
   testGround(query);
-  testScene(query);
-  return query;
+  testBoxes(query, body_, true);
+  testSelf(query);
+  testBoxes(query, scene_, false);
 }
 
 Clearance ArmCollision::clearance(const Vector6d& q, double interest_m) const {
-  const Query query = evaluate(q, interest_m);
-  return {query.nearest, fmt::format("{} to {}", query.first, query.second)};
+  Query query;
+  query.interest_m = interest_m;
+  evaluate(query, q);
+  return {query.least, query.first == nullptr
+                           ? "nothing near"
+                           : fmt::format("{} to {}", *query.first, *query.second)};
 }
 
 double ArmCollision::distance(const Vector6d& q, double interest_m) const {
-  return evaluate(q, interest_m).nearest;
+  Query query;
+  query.interest_m = interest_m;
+  evaluate(query, q);
+  return query.least;
 }
 
 double ArmCollision::motionBound(const Vector6d& dq) const { return reach_.dot(dq.cwiseAbs()); }
 
 bool ArmCollision::pathIsFree(const Vector6d& q_from, const Vector6d& q_to,
                               double clearance_m) const {
-  const double length = motionBound(q_to - q_from);
+  const Vector6d way = (q_to - q_from).cwiseAbs();
+  std::array<double, kFlangeLink + 1> travel_m{};
+  for (int i = 0; i < 6; ++i)
+    travel_m[static_cast<std::size_t>(i) + 1] =
+        travel_m[static_cast<std::size_t>(i)] + reach_[i] * way[i];
+  travel_m[kFlangeLink] = travel_m[kFlangeLink - 1];
+  const double least_stride = kMinStep / std::max(motionBound(way), 1e-9);
   double s = 0.0;
   while (true) {
-    const double room = distance(q_from + s * (q_to - q_from)) - clearance_m;
-    if (room < 0.0) return false;
+    Query query;
+    query.travel_m = &travel_m;
+    query.clearance_m = clearance_m;
+    evaluate(query, q_from + s * (q_to - q_from));
+    if (query.blocked()) return false;
     if (s >= 1.0) return true;
-    s = std::min(1.0, s + std::max(room, kMinStep) / std::max(length, 1e-9));
+    s = std::min(1.0, s + std::max(query.least, least_stride));
   }
 }
 

@@ -17,15 +17,13 @@ struct Clearance {
 
 /// Arm and head at one posture, in base.
 struct ArmShapes {
-  std::array<Capsule, 8> links;  ///< six links, then the hose on upper arm and forearm
+  std::vector<Capsule> links;  ///< as RobotGeometry::arm_shapes
   std::vector<OrientedBox> head;
-  /// "forearm"; of links[link].
-  [[nodiscard]] static const char* nameOf(std::size_t link);
 };
 
-/// The arm as six capsules along its DH skeleton, the hose as two beside them and the head as
-/// boxes, against the robot's own body, itself, the ground and the known boxes around. Everything
-/// in base. Thread-compatible; const calls are thread-safe.
+/// The arm as the capsules and the head as the boxes of the robot's description, against the
+/// robot's own body, itself, the ground and the known boxes around. Everything in base.
+/// Thread-compatible; const calls are thread-safe.
 class ArmCollision {
  public:
   explicit ArmCollision(const RobotGeometry& robot);
@@ -38,25 +36,27 @@ class ArmCollision {
   /// Same, without naming.
   [[nodiscard]] double distance(const Vector6d& q, double interest_m = 0.2) const;
   [[nodiscard]] ArmShapes shapesAt(const Vector6d& q) const;
+  /// Of links[i]: how it is called, and whether it stands still with the base.
+  [[nodiscard]] const std::string& nameOf(std::size_t i) const { return robot_.arm_shapes[i].name; }
+  [[nodiscard]] bool standsStill(std::size_t i) const { return robot_.arm_shapes[i].link == 0; }
   /// How far any point of arm or head can move when the joints move by dq: metres, upper bound.
   [[nodiscard]] double motionBound(const Vector6d& dq) const;
   /// Does the straight joint move keep `clearance_m` all the way? Conservative advancement: no step
-  /// is longer than the room at its start allows, but at least 4 mm.
+  /// is longer than any two parts have room for at its start, but at least 4 mm.
   [[nodiscard]] bool pathIsFree(const Vector6d& q_from, const Vector6d& q_to,
                                 double clearance_m) const;
 
  private:
   struct Query;
-  void testScene(Query& query) const;
-  void testBody(Query& query) const;
+  void testBoxes(Query& query, const std::vector<OrientedBox>& boxes, bool of_base) const;
   void testSelf(Query& query) const;
   void testGround(Query& query) const;
-  [[nodiscard]] Query evaluate(const Vector6d& q, double interest_m) const;
+  void evaluate(Query& query, const Vector6d& q) const;
 
   RobotGeometry robot_;
   Eigen::Isometry3d X_base_armbase_;
   std::vector<OrientedBox> body_, scene_, head_in_flange_;
-  std::vector<double> radius_;
+  std::vector<std::array<std::size_t, 2>> self_pairs_;  ///< of links that can meet
   Vector6d reach_;  ///< farthest point of arm or head from each joint's axis, m
 };
 

@@ -99,7 +99,7 @@ Result<JointPath> toJoints(const RobotGeometry& robot, const ArmCollision& colli
                        p.x(), p.y(), p.z(),
                        std::isfinite(best_step) ? "a joint would have to jump" : "out of reach");
     }
-    const double room = collision.distance(best);
+    const double room = collision.distance(best, std::max(0.0, least) + kRetreatSlack);
     if (room < least) {
       return makeError(ErrorCode::Refused,
                        "the line comes within {:.0f} mm at flange ({:.2f}, {:.2f}, {:.2f}): {}",

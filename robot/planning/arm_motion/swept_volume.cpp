@@ -10,7 +10,7 @@ namespace {
 /// Points near arm or head, with the part each is near to.
 struct Near {
   std::size_t point;
-  const char* part;
+  std::string part;
 };
 
 double toBox(const Eigen::Vector3d& p, const OrientedBox& box) {
@@ -24,23 +24,23 @@ double toCapsule(const Eigen::Vector3d& p, const Capsule& c) {
   return (p - c.a - s * along).norm() - c.radius;
 }
 
-std::vector<Near> nearArm(const ArmShapes& arm, const PointGrid& points, double clearance_m) {
+std::vector<Near> nearArm(const ArmCollision& arm, const Vector6d& q, const PointGrid& points,
+                          double clearance_m) {
   std::vector<Near> out;
-  // The column stands on the deck and never moves sideways; what is there was there before.
-  for (std::size_t link = 1; link < arm.links.size(); ++link) {
-    const Capsule& c = arm.links[link];
-    const Eigen::Vector3d grown = Eigen::Vector3d::Constant(c.radius + clearance_m);
-    points.visitBox(c.a.cwiseMin(c.b) - grown, c.a.cwiseMax(c.b) + grown, [&](std::size_t i) {
+  const ArmShapes shapes = arm.shapesAt(q);
+  const Eigen::Vector3d grown = Eigen::Vector3d::Constant(clearance_m);
+  for (std::size_t link = 0; link < shapes.links.size(); ++link) {
+    if (arm.standsStill(link)) continue;  // what is there was there before
+    const Capsule& c = shapes.links[link];
+    const Eigen::AlignedBox3d bounds = boundsOf(c);
+    points.visitBox(bounds.min() - grown, bounds.max() + grown, [&](std::size_t i) {
       if (toCapsule(points[i].cast<double>(), c) < clearance_m)
-        out.push_back({i, ArmShapes::nameOf(link)});
+        out.push_back({i, arm.nameOf(link)});
     });
   }
-  for (const OrientedBox& part : arm.head) {
-    const Eigen::Vector3d middle = part.X_frame_box.translation();
-    const Eigen::Vector3d grown = Eigen::Vector3d::Constant(part.sphere_radius + clearance_m);
-    points.visitBox(middle - grown, middle + grown, [&](std::size_t i) {
-      if (toBox(points[i].cast<double>(), part) < clearance_m)
-        out.push_back({i, part.name.c_str()});
+  for (const OrientedBox& part : shapes.head) {
+    points.visitBox(part.bounds.min() - grown, part.bounds.max() + grown, [&](std::size_t i) {
+      if (toBox(points[i].cast<double>(), part) < clearance_m) out.push_back({i, part.name});
     });
   }
   return out;
@@ -85,7 +85,7 @@ std::optional<SweptHit> firstInSweptVolume(const ArmCollision& arm,
                                            const SweptVolumeConfig& config) {
   if (paths.empty() || points.size() == 0) return std::nullopt;
   std::vector<bool> own(points.size(), false);
-  const auto begin = nearArm(arm.shapesAt(paths.front().q.front()), points, config.clearance_m);
+  const auto begin = nearArm(arm, paths.front().q.front(), points, config.clearance_m);
   for (const Near& near : begin) own[near.point] = true;
   double length = 0.0, covered = 0.0;
   for (const JointPath& path : paths)
@@ -104,7 +104,7 @@ std::optional<SweptHit> firstInSweptVolume(const ArmCollision& arm,
         if (since < config.step_m && !last) continue;
         since = 0.0;
         const Vector6d q = path.q[k] - dq * (1.0 - static_cast<double>(cut) / cuts);
-        auto found = nearArm(arm.shapesAt(q), points, config.clearance_m);
+        auto found = nearArm(arm, q, points, config.clearance_m);
         std::erase_if(found, [&](const Near& near) { return own[near.point]; });
         if (auto hit = judged(found, points, config)) {
           hit->path_share = length > 0.0 ? std::min(1.0, covered / length) : 1.0;

@@ -158,7 +158,7 @@ std::optional<std::string> firstObstacle(const BasePath& path, double length_m, 
     const OrientedBox footprint =
         makeBox(toIsometry(X_map_base) * X_base_center,
                 {length_m, width_m, kFootprintTop - kFootprintBottom}, "");
-    return separation(footprint, box) < 0.0;
+    return distance(footprint, box) < 0.0;
   };
   std::erase_if(boxes,
                 [&](const OrientedBox& box) { return touched(path.samples().front(), box); });

@@ -1,5 +1,6 @@
 #include "robot/planning/arm_motion/arm_collision.h"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -59,13 +60,15 @@ TEST(ArmCollision, TheHoseIsKeptFromWhatStandsBesideTheArm) {
   const RobotGeometry robot = loadBob();
   ArmCollision collision(robot);
   const Vector6d q = RobotGeometry::radians({0, -90, 0, 0, 0, 0});  // upright
-  const ArmShapes arm = collision.shapesAt(q);
-  const Capsule& upper_arm = arm.links[1];
-  const Capsule& hose = arm.links[6];
-  EXPECT_STREQ(ArmShapes::nameOf(6), "hose on upper arm");
-  // 8 mm and its radius of 12 mm beside the link's surface, all along.
+  const auto named = [&](const std::string& name) {
+    const auto shape = std::find_if(robot.arm_shapes.begin(), robot.arm_shapes.end(),
+                                    [&](const ArmShapeConfig& s) { return s.name == name; });
+    return collision.shapesAt(q).links.at(
+        static_cast<std::size_t>(shape - robot.arm_shapes.begin()));
+  };
+  const Capsule upper_arm = named("upper arm"), hose = named("hose on upper arm");
   const Eigen::Vector3d beside = hose.a - upper_arm.a;
-  EXPECT_NEAR(beside.norm(), upper_arm.radius + 0.008, 1e-9);
+  EXPECT_NEAR(beside.norm(), upper_arm.radius + 0.009, 1e-9);
   EXPECT_LT((hose.b - upper_arm.b - beside).norm(), 1e-9);
   BoxConfig box;
   box.name = "board";
@@ -76,6 +79,28 @@ TEST(ArmCollision, TheHoseIsKeptFromWhatStandsBesideTheArm) {
   collision.setScene({box}, {});
   EXPECT_LT(collision.clearance(q).distance_m, 0.03) << "35 mm beside the bare link";
   EXPECT_EQ(collision.clearance(q).what, "hose on upper arm to board");
+}
+
+// The vendor's model: upper arm 0.1762 m and forearm 0.0393 m beside the Denavit-Hartenberg lines.
+TEST(ArmCollision, UpperArmAndForearmStandBesideTheJointsLines) {
+  const RobotGeometry robot = loadBob();
+  ArmCollision collision(robot);
+  const Vector6d q = RobotGeometry::radians({180, 0, 0, 0, 0, 0});  // stretched forward
+  const auto roomFor = [&](double along, double aside) {
+    BoxConfig pin;
+    pin.name = "pin";
+    pin.size_m = {0.01, 0.01, 0.01};
+    const Eigen::Vector3d p =
+        robot.X_base_armbase.pose() * Eigen::Vector3d(along, aside, robot.arm.d[0]);
+    pin.center.xyz_m = {p.x(), p.y(), p.z()};
+    collision.setScene({pin}, {});
+    return collision.clearance(q);
+  };
+  EXPECT_LT(roomFor(0.3, 0.1762).distance_m, 0.0);
+  EXPECT_EQ(roomFor(0.3, 0.1762).what, "upper arm to pin");
+  EXPECT_GT(roomFor(0.3, 0.0).distance_m, 0.05) << "beside the line of the joints nothing is";
+  EXPECT_LT(roomFor(0.9, 0.0393).distance_m, 0.0);
+  EXPECT_EQ(roomFor(0.9, 0.0393).what, "forearm to pin");
 }
 
 TEST(ArmCollision, SceneBoxesAreSeenFromTheBase) {
