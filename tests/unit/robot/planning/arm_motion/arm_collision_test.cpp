@@ -68,16 +68,16 @@ TEST(ArmCollision, TheHoseIsKeptFromWhatStandsBesideTheArm) {
   };
   const Capsule upper_arm = named("upper arm"), hose = named("hose on upper arm");
   const Eigen::Vector3d beside = hose.a - upper_arm.a;
-  EXPECT_NEAR(beside.norm(), upper_arm.radius + 0.009, 1e-9);
+  EXPECT_NEAR(beside.norm(), upper_arm.radius + 0.001, 1e-9);
   EXPECT_LT((hose.b - upper_arm.b - beside).norm(), 1e-9);
   BoxConfig box;
   box.name = "board";
   const Eigen::Vector3d middle =
-      0.5 * (upper_arm.a + upper_arm.b) + (upper_arm.radius + 0.035) * beside.normalized();
+      0.5 * (upper_arm.a + upper_arm.b) + (upper_arm.radius + 0.03) * beside.normalized();
   box.center.xyz_m = {middle.x(), middle.y(), middle.z()};
   box.size_m = {0.01, 0.01, 0.01};
   collision.setScene({box}, {});
-  EXPECT_LT(collision.clearance(q).distance_m, 0.03) << "35 mm beside the bare link";
+  EXPECT_LT(collision.clearance(q).distance_m, 0.02) << "25 mm beside the bare link";
   EXPECT_EQ(collision.clearance(q).what, "hose on upper arm to board");
 }
 
