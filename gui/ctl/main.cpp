@@ -1,10 +1,13 @@
 #include <array>
+#include <cerrno>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
+#include <cstring>
 
-#include <CLI/CLI.hpp>
 #include <unistd.h>
 
+#include "common/config/command_line.h"
 #include "common/core/log.h"
 #include "gui/ctl/commands.h"
 #include "gui/ctl/signals.h"
@@ -26,6 +29,10 @@ struct Request {
   bool restart = false;
 };
 
+constexpr int kFailed = 1;
+const CLI::Validator kFinite = kiln::within(-1e6, 1e6);
+const CLI::Validator kForSeconds = kiln::within(0.0, 1e6);
+
 std::string defaultName() {
   const char* user = std::getenv("USER");
   return fmt::format("kilnctl {}", user != nullptr ? user : "operator");
@@ -45,8 +52,9 @@ void addViews(CLI::App& app, Request& request) {
   });
   CLI::App* watch = app.add_subcommand("watch", "print the state again and again");
   watch->add_option("--period", request.period_s, "seconds between lines")
-      ->check(CLI::Range(0.05, 60.0));
-  watch->add_option("--seconds", request.seconds, "end after this; 0: Ctrl-C ends it");
+      ->check(kiln::within(0.05, 60.0));
+  watch->add_option("--seconds", request.seconds, "end after this; 0: Ctrl-C ends it")
+      ->check(kForSeconds);
   watch->callback([&request] {
     request.options.role = kiln::ClientRole::Viewer;
     request.run = [&request](Console& console) {
@@ -98,7 +106,7 @@ void addPlaces(CLI::App& app, Request& request) {
       });
   CLI::App* pose =
       app.add_subcommand("pose", "pose X Y YAW_DEG: tell the robot where it stands, in map");
-  pose->add_option("POSE", request.base, "m, m, degrees")->required();
+  pose->add_option("POSE", request.base, "m, m, degrees")->required()->check(kFinite);
   pose->callback([&request] {
     request.run = [&request](Console& console) {
       const auto& [x, y, yaw_deg] = request.base;
@@ -108,7 +116,7 @@ void addPlaces(CLI::App& app, Request& request) {
   CLI::App* nudge = app.add_subcommand(
       "nudge", "nudge PLACE DX DY DYAW_DEG: move a configured fire place in map");
   nudge->add_option("PLACE", request.name, "\"place 1\"")->required();
-  nudge->add_option("BY", request.base, "m, m, degrees")->required();
+  nudge->add_option("BY", request.base, "m, m, degrees")->required()->check(kFinite);
   nudge->callback([&request] {
     request.run = [&request](Console& console) {
       const auto& [dx, dy, dyaw_deg] = request.base;
@@ -133,7 +141,8 @@ void addLeaseAndStop(CLI::App& app, Request& request) {
   for (const bool take_over : {false, true}) {
     CLI::App* acquire =
         lease->add_subcommand(take_over ? "take-over" : "acquire", "take control and keep it");
-    acquire->add_option("--seconds", request.seconds, "keep it this long; 0: until Ctrl-C");
+    acquire->add_option("--seconds", request.seconds, "keep it this long; 0: until Ctrl-C")
+        ->check(kForSeconds);
     acquire->callback([&request, take_over] {
       request.options.take_over = take_over;
       request.run = [&request](Console& console) {
@@ -179,15 +188,17 @@ void addHolds(CLI::App& app, Request& request) {
   CLI::App* jog = app.add_subcommand("jog", "move by hand while this runs (mode teleop)");
   jog->require_subcommand(1);
   CLI::App* base = jog->add_subcommand("base", "jog base VX VY WZ: m/s, m/s, rad/s in base");
-  base->add_option("VELOCITY", request.base)->required();
-  base->add_option("--seconds", request.seconds, "release after this; 0: a signal releases");
+  base->add_option("VELOCITY", request.base)->required()->check(kFinite);
+  base->add_option("--seconds", request.seconds, "release after this; 0: a signal releases")
+      ->check(kForSeconds);
   base->callback([&request, hold] {
     hold(kiln::JogBase{{request.base[0], request.base[1], request.base[2]}});
   });
   CLI::App* arm = jog->add_subcommand("arm", "jog arm V1 .. V6: rad/s per joint, or m/s and rad/s");
-  arm->add_option("VELOCITY", request.arm)->required()->expected(6);
+  arm->add_option("VELOCITY", request.arm)->required()->expected(6)->check(kFinite);
   arm->add_option("--frame", request.frame)->check(CLI::IsMember({"joint", "tool", "base"}));
-  arm->add_option("--seconds", request.seconds, "release after this; 0: a signal releases");
+  arm->add_option("--seconds", request.seconds, "release after this; 0: a signal releases")
+      ->check(kForSeconds);
   arm->callback([&request, hold] {
     kiln::JogArm body;
     body.frame = request.frame == "joint"  ? kiln::JogFrame::Joint
@@ -198,12 +209,13 @@ void addHolds(CLI::App& app, Request& request) {
   });
   CLI::App* pump =
       app.add_subcommand("pump", "pump LEFT RIGHT: duty 0 to 1 while this runs (mode teleop)");
-  pump->add_option("LEFT", request.left)->required();
-  pump->add_option("RIGHT", request.right)->required();
-  pump->add_option("--seconds", request.seconds, "release after this; 0: a signal releases");
+  pump->add_option("LEFT", request.left)->required()->check(kiln::within(0.0, 1.0));
+  pump->add_option("RIGHT", request.right)->required()->check(kiln::within(0.0, 1.0));
+  pump->add_option("--seconds", request.seconds, "release after this; 0: a signal releases")
+      ->check(kForSeconds);
   pump->callback([&request, hold] { hold(kiln::HoldPump{request.left, request.right}); });
   CLI::App* speed = app.add_subcommand("speed", "speed scale of jogs, 0 to 1");
-  speed->add_option("SCALE", request.scale)->required();
+  speed->add_option("SCALE", request.scale)->required()->check(kiln::within(0.0, 1.0));
   speed->callback([&request] {
     request.run = [&request](Console& console) {
       return kiln::ctl::commandWithControl(console, kiln::SetSpeedScale{request.scale});
@@ -219,7 +231,7 @@ void addMacros(CLI::App& app, Request& request) {
     request.run = kiln::ctl::listMacros;
   });
   CLI::App* run = macro->add_subcommand("run", "hold a macro until it has ended (mode teleop)");
-  run->add_option("NAME", request.name, "\"spray fire 1\"")->required();
+  run->add_option("NAME", request.name, "\"spray fire 1\"")->required()->check(kiln::notEmpty());
   run->add_flag("--restart", request.restart, "from its first step, even if it was interrupted");
   run->callback([&request] {
     request.run = [&request](Console& console) {
@@ -248,7 +260,8 @@ int main(int argc, char** argv) {
   app.add_flag("--take-over", request.options.take_over,
                "ask the holder for control when it is taken");
   app.add_option("--timeout", request.options.connect_s, "seconds to wait for the robot")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(kiln::within(0.1, 3600.0));
   app.require_subcommand(1);
   addViews(app, request);
   addMission(app, request);
@@ -256,12 +269,11 @@ int main(int argc, char** argv) {
   addLeaseAndStop(app, request);
   addHolds(app, request);
   addMacros(app, request);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
+  if (const auto status = kiln::parseCommandLine(app, argc, argv)) return *status;
   kiln::ctl::catchSignals();
   Console console(request.options);
-  return request.run(console);
+  const int status = request.run(console);
+  if (std::fflush(stdout) == 0 || status != 0) return status;
+  fmt::print(stderr, "kilnctl: what it says cannot be written: {}\n", std::strerror(errno));
+  return kFailed;
 }

@@ -1,8 +1,8 @@
 #include <cstdio>
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "common/config/command_line.h"
 #include "common/config/resources.h"
 #include "common/core/atomic_file.h"
 #include "robot/evaluation/evaluation.h"
@@ -17,6 +17,7 @@ namespace {
 using namespace kiln;
 
 constexpr int kSuccess = 0, kMissed = 1, kBadInput = 2;
+constexpr int kMostSeed = 1'000'000'000;
 
 int fail(const Error& error) {
   fmt::print(stderr, "kiln-eval: {}\n", error.message);
@@ -107,7 +108,7 @@ int main(int argc, char** argv) {
       ->check(CLI::IsMember(missionNames()));
   run->add_option("--seed", run_options.seed, "seed of the world")
       ->default_val(1)
-      ->check(CLI::NonNegativeNumber);
+      ->check(wholeUpTo(kMostSeed));
   run->add_flag("--lockstep", run_options.lockstep,
                 "world and robot step together, as fast as the processor allows");
   run->add_option("--report", report, "deterministic JSON; wall time goes to FILE.timing");
@@ -121,7 +122,8 @@ int main(int argc, char** argv) {
   bool calibrate = false;
   run->add_flag("--calibrate", calibrate, "calibrate the sensors of this seed's robot first");
   run->add_option("--wall-limit-s", run_options.wall_limit_s, "end a run that takes longer")
-      ->default_val(1200.0);
+      ->default_val(1200.0)
+      ->check(within(1.0, 1e6));
 
   MapCommandOptions map_options;
   auto* map = app.add_subcommand("map", "builds the localisation map from recorded runs");
@@ -159,7 +161,7 @@ int main(int argc, char** argv) {
     sub->add_option("--out", sweep.out, "where a calibration writes its result");
     sweeps.emplace_back(sub, &evaluation);
   }
-  CLI11_PARSE(app, argc, argv);
+  if (const auto status = parseCommandLine(app, argc, argv)) return *status;
 
   if (*list) {
     for (const Evaluation& evaluation : evaluations())
