@@ -29,6 +29,7 @@ class FakeArm final : public Arm {
   void freezeState(bool frozen);  ///< the last state keeps its stamp: a dead link
   void setQ(const Vector6d& q);   ///< joints pushed by hand
   void jam(bool jammed);          ///< joints stand still whatever is commanded
+  [[nodiscard]] Vector6d trueQ() const;
   [[nodiscard]] std::vector<ArmServo> sent() const;  ///< every target that reached the device
   [[nodiscard]] int releases() const;
 
@@ -39,7 +40,8 @@ class FakeArm final : public Arm {
   ArmState state_;
   std::optional<ArmServo> target_;
   Stamp target_stamp_, last_;
-  bool frozen_ = false, jammed_ = false;
+  std::optional<ArmState> frozen_;  ///< what state() repeats
+  bool jammed_ = false;
   int releases_ = 0;
   std::vector<ArmServo> sent_;
 };
