@@ -1,10 +1,13 @@
 #include <array>
+#include <cerrno>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
+#include <cstring>
 
-#include <CLI/CLI.hpp>
 #include <unistd.h>
 
+#include "common/config/command_line.h"
 #include "common/config/config_archive.h"
 #include "common/core/log.h"
 #include "gui/ctl/commands.h"
@@ -28,6 +31,10 @@ struct Request {
   bool restart = false;
 };
 
+constexpr int kFailed = 1;
+const CLI::Validator kFinite = kiln::within(-1e6, 1e6);
+const CLI::Validator kForSeconds = kiln::within(0.0, 1e6);
+
 std::string defaultName() {
   const char* user = std::getenv("USER");
   return fmt::format("kilnctl {}", user != nullptr ? user : "operator");
@@ -35,7 +42,8 @@ std::string defaultName() {
 
 void addThree(CLI::App& app, std::array<double, 3>& values, const std::array<const char*, 3>& names,
               const std::array<const char*, 3>& units) {
-  for (std::size_t i = 0; i < 3; ++i) app.add_option(names[i], values[i], units[i])->required();
+  for (std::size_t i = 0; i < 3; ++i)
+    app.add_option(names[i], values[i], units[i])->required()->check(kFinite);
 }
 
 void addSimple(CLI::App& app, Request& request, const char* name, const char* doc,
@@ -52,8 +60,9 @@ void addViews(CLI::App& app, Request& request) {
   });
   CLI::App* watch = app.add_subcommand("watch", "print the state again and again");
   watch->add_option("--period", request.period_s, "seconds between lines")
-      ->check(CLI::Range(0.05, 60.0));
-  watch->add_option("--seconds", request.seconds, "end after this; 0: Ctrl-C ends it");
+      ->check(kiln::within(0.05, 60.0));
+  watch->add_option("--seconds", request.seconds, "end after this; 0: Ctrl-C ends it")
+      ->check(kForSeconds);
   watch->callback([&request] {
     request.options.role = kiln::ClientRole::Viewer;
     request.run = [&request](Console& console) {
@@ -134,7 +143,8 @@ void addLeaseAndStop(CLI::App& app, Request& request) {
   for (const bool take_over : {false, true}) {
     CLI::App* acquire =
         lease->add_subcommand(take_over ? "take-over" : "acquire", "take control and keep it");
-    acquire->add_option("--seconds", request.seconds, "keep it this long; 0: until Ctrl-C");
+    acquire->add_option("--seconds", request.seconds, "keep it this long; 0: until Ctrl-C")
+        ->check(kForSeconds);
     acquire->callback([&request, take_over] {
       request.options.take_over = take_over;
       request.run = [&request](Console& console) {
@@ -181,16 +191,19 @@ void addHolds(CLI::App& app, Request& request) {
   jog->require_subcommand(1);
   CLI::App* base = jog->add_subcommand("base", "drive at this speed, in base");
   addThree(*base, request.base, {"VX", "VY", "WZ"}, {"m/s", "m/s", "rad/s"});
-  base->add_option("--seconds", request.seconds, "release after this; 0: a signal releases");
+  base->add_option("--seconds", request.seconds, "release after this; 0: a signal releases")
+      ->check(kForSeconds);
   base->callback([&request, hold] {
     hold(kiln::JogBase{{request.base[0], request.base[1], request.base[2]}});
   });
   CLI::App* arm = jog->add_subcommand("arm", "move the arm at these six speeds");
   arm->add_option("V1 .. V6", request.arm, "rad/s of each joint; else three m/s and three rad/s")
       ->required()
-      ->expected(6);
+      ->expected(6)
+      ->check(kFinite);
   arm->add_option("--frame", request.frame)->check(CLI::IsMember({"joint", "tool", "base"}));
-  arm->add_option("--seconds", request.seconds, "release after this; 0: a signal releases");
+  arm->add_option("--seconds", request.seconds, "release after this; 0: a signal releases")
+      ->check(kForSeconds);
   arm->callback([&request, hold] {
     kiln::JogArm body;
     body.frame = request.frame == "joint"  ? kiln::JogFrame::Joint
@@ -202,11 +215,12 @@ void addHolds(CLI::App& app, Request& request) {
   CLI::App* actuator = app.add_subcommand(
       "hold", "hold ACTUATOR VALUE: run it while this runs (mode teleop; names: mission)");
   actuator->add_option("ACTUATOR", request.name, "\"pumps\"")->required();
-  actuator->add_option("VALUE", request.scale)->required();
-  actuator->add_option("--seconds", request.seconds, "release after this; 0: a signal releases");
+  actuator->add_option("VALUE", request.scale)->required()->check(kFinite);
+  actuator->add_option("--seconds", request.seconds, "release after this; 0: a signal releases")
+      ->check(kForSeconds);
   actuator->callback([&request, hold] { hold(kiln::HoldActuator{request.name, request.scale}); });
   CLI::App* speed = app.add_subcommand("speed", "speed scale of jogs, 0 to 1");
-  speed->add_option("SCALE", request.scale)->required();
+  speed->add_option("SCALE", request.scale)->required()->check(kiln::within(0.0, 1.0));
   speed->callback([&request] {
     request.run = [&request](Console& console) {
       return kiln::ctl::commandWithControl(console, kiln::SetSpeedScale{request.scale});
@@ -222,7 +236,7 @@ void addMacros(CLI::App& app, Request& request) {
     request.run = kiln::ctl::listMacros;
   });
   CLI::App* run = macro->add_subcommand("run", "hold a macro until it has ended (mode teleop)");
-  run->add_option("NAME", request.name, "\"spray fire 1\"")->required();
+  run->add_option("NAME", request.name, "\"spray fire 1\"")->required()->check(kiln::notEmpty());
   run->add_flag("--restart", request.restart, "from its first step, even if it was interrupted");
   run->callback([&request] {
     request.run = [&request](Console& console) {
@@ -282,7 +296,7 @@ int main(int argc, char** argv) {
   app.add_flag("--take-over", request.options.take_over,
                "ask the holder for control when it is taken");
   app.add_option("--timeout", request.options.connect_s, "seconds to wait for the robot")
-      ->check(CLI::Range(0.1, kLongestWait_s))
+      ->check(kiln::within(0.1, kLongestWait_s))
       ->capture_default_str();
   app.fallthrough();  // before or behind the command
   app.footer(kExamples);
@@ -300,5 +314,8 @@ int main(int argc, char** argv) {
   }
   kiln::ctl::catchSignals();
   Console console(request.options);
-  return request.run(console);
+  const int status = request.run(console);
+  if (std::fflush(stdout) == 0 || status != 0) return status;
+  fmt::print(stderr, "kilnctl: what it says cannot be written: {}\n", std::strerror(errno));
+  return kFailed;
 }

@@ -26,7 +26,8 @@ struct MotionLimits {
 
 /// Brings a velocity vector to a target along a straight line in velocity space, with the norm of
 /// acceleration and jerk limited. A ramp to zero therefore keeps its direction: a swerve base
-/// brakes without turning its wheels.
+/// brakes without turning its wheels. Limits may change at any step: an acceleration that began
+/// under a higher jerk is taken back under it, else it would carry past the target.
 template <int N>
 class JerkLimiter {
  public:
@@ -42,7 +43,9 @@ class JerkLimiter {
     if (size > 1e-12) wanted += error * (approachAcceleration(size, limits, dt) / size);
     if (wanted.norm() > limits.accel) wanted *= limits.accel / wanted.norm();
     Vector change = wanted - acceleration_;
-    const double max_change = limits.jerk * dt;
+    const bool takes_back = acceleration_.dot(change) < 0.0;
+    jerk_ = takes_back ? std::max(jerk_, limits.jerk) : limits.jerk;
+    const double max_change = jerk_ * dt;
     if (change.norm() > max_change) change *= max_change / change.norm();
     acceleration_ += change;
     velocity_ += acceleration_ * dt;
@@ -55,6 +58,7 @@ class JerkLimiter {
   void reset(const Vector& velocity = Vector::Zero()) {
     velocity_ = velocity;
     acceleration_.setZero();
+    jerk_ = 0.0;
   }
   [[nodiscard]] const Vector& velocity() const { return velocity_; }
   [[nodiscard]] const Vector& acceleration() const { return acceleration_; }
@@ -62,6 +66,7 @@ class JerkLimiter {
  private:
   Vector velocity_ = Vector::Zero();
   Vector acceleration_ = Vector::Zero();
+  double jerk_ = 0.0;  ///< limit under which the acceleration has grown
 };
 
 }  // namespace kiln

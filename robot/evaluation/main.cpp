@@ -1,8 +1,8 @@
 #include <cstdio>
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "common/config/command_line.h"
 #include "common/config/resources.h"
 #include "common/core/atomic_file.h"
 #include "robot/evaluation/evaluation.h"
@@ -17,6 +17,7 @@ namespace {
 using namespace kiln;
 
 constexpr int kSuccess = 0, kMissed = 1, kBadInput = 2;
+constexpr int kMostSeed = 1'000'000'000;
 
 int fail(const Error& error) {
   fmt::print(stderr, "kiln-eval: {}\n", error.message);
@@ -120,7 +121,7 @@ int main(int argc, char** argv) {
       ->check(CLI::IsMember(missionNames()));
   run->add_option("--seed", run_options.seed, "seed of the world")
       ->default_val(1)
-      ->check(CLI::NonNegativeNumber);
+      ->check(wholeUpTo(kMostSeed));
   run->add_flag("--lockstep", run_options.lockstep,
                 "world and robot step together, as fast as the processor allows");
   run->add_option("--report", report, "deterministic JSON; wall time goes to FILE.timing");
@@ -134,7 +135,8 @@ int main(int argc, char** argv) {
   bool calibrate = false;
   run->add_flag("--calibrate", calibrate, "calibrate the sensors of this seed's robot first");
   run->add_option("--wall-limit-s", run_options.wall_limit_s, "end a run that takes longer")
-      ->default_val(1200.0);
+      ->default_val(1200.0)
+      ->check(within(1.0, 1e6));
 
   MapCommandOptions map_options;
   auto* map = app.add_subcommand("map", "builds the localisation map from recorded runs");
@@ -164,7 +166,7 @@ int main(int argc, char** argv) {
     for (const EvaluationOption& option : evaluation.options) addOption(*sub, option, sweep);
     sweeps.emplace_back(sub, &evaluation);
   }
-  CLI11_PARSE(app, argc, argv);
+  if (const auto status = parseCommandLine(app, argc, argv)) return *status;
 
   if (*list) {
     for (const Evaluation& evaluation : evaluations())

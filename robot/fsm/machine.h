@@ -19,6 +19,7 @@ struct FsmCheckpoint {
   std::uint64_t step = 0;
   std::string state;
   std::string resume_state;
+  bool arrived = true;  ///< false: gone to while held, and not let go yet
 };
 
 /// A running finite state machine without its types: what app, telemetry and the command gate see.

@@ -177,7 +177,7 @@ void MachineCore::restart(std::string why, Stamp now) {
 }
 
 FsmCheckpoint MachineCore::checkpoint() const {
-  FsmCheckpoint out{info_.mission, info_.mission_uuid, step_, {}, {}};
+  FsmCheckpoint out{info_.mission, info_.mission_uuid, step_, {}, {}, !arrive_pending_};
   if (!current_) return out;
   out.state = current_->name();
   out.resume_state = entry().resume_state;
@@ -209,6 +209,7 @@ Result<void> MachineCore::restore(const FsmCheckpoint& checkpoint, Stamp now) {
   step_ = checkpoint.step;
   pause("restored from a checkpoint", now);
   go(target->make(), TransitionCause::Resume, std::move(note));
+  arrive_pending_ = target == stood && !checkpoint.arrived;
   return {};
 }
 

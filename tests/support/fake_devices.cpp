@@ -25,9 +25,13 @@ FakeArm::FakeArm(const Clock& clock, const RobotGeometry& robot, const Vector6d&
 
 std::optional<ArmState> FakeArm::state() const {
   const std::lock_guard lock(mutex_);
-  ArmState shown = state_;
+  ArmState shown = frozen_ ? *frozen_ : state_;
   shown.wrench_tool.head<3>() -= zero_n_;
   return shown;
+}
+Vector6d FakeArm::trueQ() const {
+  const std::lock_guard lock(mutex_);
+  return state_.q;
 }
 
 Result<void> FakeArm::servo(const ArmServo& target) {
@@ -75,7 +79,6 @@ void FakeArm::advance() {
   const Stamp now = clock_.now();
   const double dt = toSeconds(now - last_);
   last_ = now;
-  if (frozen_) return;
   state_.stamp = now;
   ++state_.seq;
   const bool held = jammed_ || !target_ || !state_.powered ||
@@ -105,7 +108,10 @@ void FakeArm::setPowered(bool powered) {
 }
 void FakeArm::freezeState(bool frozen) {
   const std::lock_guard lock(mutex_);
-  frozen_ = frozen;
+  if (!frozen)
+    frozen_.reset();
+  else if (!frozen_)
+    frozen_ = state_;
 }
 void FakeArm::setQ(const Vector6d& q) {
   const std::lock_guard lock(mutex_);

@@ -31,6 +31,7 @@ class FakeArm final : public Arm {
   void freezeState(bool frozen);  ///< the last state keeps its stamp: a dead link
   void setQ(const Vector6d& q);   ///< joints pushed by hand
   void jam(bool jammed);          ///< joints stand still whatever is commanded
+  [[nodiscard]] Vector6d trueQ() const;
   [[nodiscard]] std::vector<ArmServo> sent() const;  ///< every target that reached the device
   [[nodiscard]] int releases() const;
   [[nodiscard]] std::vector<ArmPayload> payloads() const;  ///< that it was told
@@ -43,7 +44,8 @@ class FakeArm final : public Arm {
   ArmState state_;
   std::optional<ArmServo> target_;
   Stamp target_stamp_, last_;
-  bool frozen_ = false, jammed_ = false;
+  std::optional<ArmState> frozen_;  ///< what state() repeats
+  bool jammed_ = false;
   int releases_ = 0, zeroings_ = 0;
   Eigen::Vector3d zero_n_ = Eigen::Vector3d::Zero();
   std::vector<ArmPayload> payloads_;

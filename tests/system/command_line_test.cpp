@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "robot/evaluation/child_process.h"
 #include "tests/support/paths.h"
@@ -19,6 +20,19 @@ struct Outcome {
   int status = -1;
   std::string text;
 };
+
+/// One data packet of a VLP-16 (manual, section 9.2): twelve blocks, strongest return.
+std::string lidarPacket() {
+  std::string packet(1206, '\0');
+  for (std::size_t block = 0; block < 12; ++block) {
+    packet[100 * block] = '\xFF';
+    packet[100 * block + 1] = '\xEE';
+    packet[100 * block + 2] = static_cast<char>(10 * block);
+  }
+  packet[1204] = '\x37';
+  packet[1205] = '\x22';
+  return packet;
+}
 
 class CommandLine : public testing::Test {
  protected:
@@ -69,6 +83,79 @@ TEST_F(CommandLine, RobotdRefusesAnAddressThatOthersCanReach) {
   const Outcome out = run({"kiln-robotd", "--lidar", capture, "--listen", "tcp://0.0.0.0:7300",
                            "--state-dir", scratch_.file("state")});
   EXPECT_EQ(out.status, 2) << out.text;
+}
+
+TEST_F(CommandLine, ANumberThatIsNoneIsBadInputEverywhere) {
+  const std::vector<std::vector<std::string>> calls = {
+      {"kiln-robotd", "--sim", "ipc:///none", "--until-s", "nan"},
+      {"kiln-robotd", "--replay", "none.mcap", "--replay-speed", "nan"},
+      {"kiln-robotd", "--no-such-option"},
+      {"kiln-sim", "--seed", "-1"},
+      {"kiln-sim", "--seed", "18446744073709551616"},
+      {"kiln-sim", "--seed", ""},
+      {"kiln-eval", "run", "--seed", "-1"},
+      {"kiln-eval", "run", "--wall-limit-s", "nan"},
+      {"kiln-eval", "no-such-evaluation"},
+      {"kilnctl", "--timeout", "inf", "state"},
+      {"kilnctl", "--timeout", "nan", "state"},
+      {"kilnctl", "watch", "--seconds", "nan"},
+      {"kilnctl", "hold", "pumps", "nan"},
+      {"kilnctl", "jog", "base", "0", "inf", "0"},
+      {"kilnctl", "macro", "run", ""}};
+  for (const auto& call : calls) {
+    const Outcome out = run(call);
+    EXPECT_EQ(out.status, 2) << call.front() << " " << call.back() << ": " << out.text;
+  }
+}
+
+/// Whatever is no regular file is refused at once, not waited for or filled into memory.
+TEST_F(CommandLine, APipeADeviceAndAFolderAreNoFiles) {
+  const std::string pipe = scratch_.file("pipe");
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  for (const std::string& path : {pipe, std::string("/dev/zero"), scratch_.path()}) {
+    const std::string state = scratch_.file("state");
+    for (const std::vector<std::string>& source :
+         {std::vector<std::string>{"--replay", path},
+          {"--lidar", path},
+          {"--thermal", path == scratch_.path() ? "/dev/zero" : path},
+          {"--config", path}}) {
+      std::vector<std::string> argv{"kiln-robotd", "--state-dir", state, "--listen",
+                                    "ipc://" + scratch_.file("link")};
+      argv.insert(argv.end(), source.begin(), source.end());
+      const Outcome out = run(argv);
+      EXPECT_EQ(out.status, 2) << source.front() << " " << path << ": " << out.text;
+    }
+    const std::string capture = write("raw", lidarPacket());
+    const Outcome map = run({"kiln-robotd", "--lidar", capture, "--set", "localization.map=" + path,
+                             "--state-dir", state, "--listen", "ipc://" + scratch_.file("link")});
+    EXPECT_EQ(map.status, 2) << path << ": " << map.text;
+  }
+}
+
+TEST_F(CommandLine, AReportReplacesRegularFilesOnly) {
+  const std::string capture = write("raw", lidarPacket());
+  const std::string pipe = scratch_.file("pipe");
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  const Outcome out =
+      run({"kiln-robotd", "--lidar", capture, "--until-s", "0.1", "--report", pipe, "--state-dir",
+           scratch_.file("state"), "--listen", "ipc://" + scratch_.file("link")});
+  EXPECT_EQ(out.status, 2);
+  EXPECT_NE(out.text.find("not a regular file"), std::string::npos) << out.text;
+  struct stat found = {};
+  ASSERT_EQ(stat(pipe.c_str(), &found), 0);
+  EXPECT_TRUE(S_ISFIFO(found.st_mode));
+}
+
+TEST_F(CommandLine, AnArenaThatStatesNoFenceIsRefusedByName) {
+  const std::string capture = write("raw", lidarPacket());
+  for (const char* text : {"{}\n", "name: kitchen\n", ""}) {
+    const std::string arena = write("arena.yaml", text);
+    const Outcome out =
+        run({"kiln-robotd", "--lidar", capture, "--set", "arena=" + arena, "--until-s", "0.1",
+             "--state-dir", scratch_.file("state"), "--listen", "ipc://" + scratch_.file("link")});
+    EXPECT_EQ(out.status, 2) << text;
+    EXPECT_NE(out.text.find(arena), std::string::npos) << out.text;
+  }
 }
 
 TEST_F(CommandLine, SimNamesAMissingWorld) {

@@ -16,15 +16,20 @@ bool same(const std::vector<MissionHold>& a, const std::vector<MissionHold>& b) 
 CheckpointKeeper::CheckpointKeeper(Config config, std::function<MissionCheckpoint()> take)
     : config_(std::move(config)),
       take_(std::move(take)),
-      writer_(config_.path.empty() ? nullptr : std::make_unique<CheckpointWriter>(config_.path)) {}
+      writer_(config_.path.empty() ? nullptr : std::make_unique<CheckpointWriter>(config_.path)) {
+  if (writer_ && !config_.write)
+    config_.write = [this](std::string text, bool durable) {
+      writer_->write(std::move(text), durable);
+    };
+}
 
 void CheckpointKeeper::save(Stamp now, bool durable) {
   last_save_ = now;
-  if (!writer_) return;
+  if (!config_.write) return;
   MissionCheckpoint checkpoint = take_();
   checkpoint.stamp = now;
   saved_holds_ = checkpoint.holds;
-  writer_->write(encodeCheckpoint(checkpoint), durable);
+  config_.write(encodeCheckpoint(checkpoint), durable);
 }
 
 void CheckpointKeeper::tick(const std::vector<MissionHold>& holds, Stamp now) {

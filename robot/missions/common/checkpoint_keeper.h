@@ -19,6 +19,8 @@ class CheckpointKeeper {
   struct Config {
     std::string path{};     ///< empty: nothing is kept
     double period_s = 0.2;  ///< between actions; the last pose is at most this old after a kill
+    /// Empty: a CheckpointWriter of `path`.
+    std::function<void(std::string text, bool durable)> write{};
   };
   /// @param take  the checkpoint of now, without its stamp.
   CheckpointKeeper(Config config, std::function<MissionCheckpoint()> take);

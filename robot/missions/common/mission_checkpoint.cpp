@@ -24,9 +24,9 @@ tl::unexpected<Error> damaged(const std::string& name, const std::string& why) {
 }
 
 FsmCheckpoint fsmFrom(const json& j) {
-  return {j.at("mission").get<std::string>(), j.at("mission_uuid").get<std::string>(),
-          j.at("step").get<std::uint64_t>(), j.at("state").get<std::string>(),
-          j.at("resume_state").get<std::string>()};
+  return {j.at("mission").get<std::string>(),      j.at("mission_uuid").get<std::string>(),
+          j.at("step").get<std::uint64_t>(),       j.at("state").get<std::string>(),
+          j.at("resume_state").get<std::string>(), j.value("arrived", true)};
 }
 
 json holdsToJson(const std::vector<MissionHold>& holds) {
@@ -72,7 +72,8 @@ std::string encodeCheckpoint(const MissionCheckpoint& checkpoint) {
                        {"mission_uuid", fsm.mission_uuid},
                        {"step", fsm.step},
                        {"state", fsm.state},
-                       {"resume_state", fsm.resume_state}}},
+                       {"resume_state", fsm.resume_state},
+                       {"arrived", fsm.arrived}}},
                      {"holds", holdsToJson(checkpoint.holds)},
                      {"robot", beliefToJson(checkpoint.robot)},
                      {"log", checkpoint.log},

@@ -53,6 +53,24 @@ TEST(JerkLimiter, BrakesWithoutTurning) {
   EXPECT_EQ(limiter.velocity().norm(), 0.0);
 }
 
+/// A stop ramp that gives way to gentler limits: 1.8 m/s^2 taken back at 4 m/s^3 alone would end at
+/// v - a^2 / (2 j) = -0.2 m/s.
+TEST(JerkLimiter, GentlerLimitsDoNotCarryPastTheTarget) {
+  for (const double target : {0.0, 0.3}) {
+    for (int hard_steps = 1; hard_steps < 60; ++hard_steps) {
+      JerkLimiter<1> limiter;
+      limiter.reset(JerkLimiter<1>::Vector(0.3));
+      for (int k = 0; k < hard_steps; ++k)
+        limiter.step(JerkLimiter<1>::Vector(0.0), {1.8, 20.0}, 0.008);
+      for (int k = 0; k < 400; ++k) {
+        limiter.step(JerkLimiter<1>::Vector(target), {0.8, 4.0}, 0.008);
+        ASSERT_GE(limiter.velocity()[0], -1e-9) << hard_steps << " steps, target " << target;
+      }
+      EXPECT_NEAR(limiter.velocity()[0], target, 1e-9);
+    }
+  }
+}
+
 TEST(JerkLimiter, FollowsARampWithItsFeedForward) {
   JerkLimiter<1> limiter;
   const double dt = 0.008, slope = 2.0;

@@ -39,6 +39,23 @@ TEST(FsmCheckpoint, RestoreGoesOnUnderTheSameUuidAndCounter) {
   EXPECT_EQ(f.kettle.calls, std::vector<std::string>{"Heat.enter"}) << "entered once, not counted";
 }
 
+/// Forced while the machine was held, killed before it was let go.
+TEST(FsmCheckpoint, RestoreCountsAVisitThatHadNotBegun) {
+  Fixture held;
+  held.machine.start("", held.clock.now());
+  held.machine.pause("test", held.clock.now());
+  const FsmStatus seen = held.status();
+  (void)held.machine.changeState({seen.state, seen.step, "Heat"}, "Ann", held.clock.now());
+  const FsmCheckpoint taken = held.machine.checkpoint();
+  EXPECT_FALSE(taken.arrived);
+  Fixture f;
+  ASSERT_TRUE(f.machine.restore(taken, f.clock.now()).has_value());
+  EXPECT_FALSE(f.machine.checkpoint().arrived);
+  f.machine.resume(f.clock.now());
+  EXPECT_EQ(f.kettle.arrivals, 1);
+  EXPECT_TRUE(f.machine.checkpoint().arrived);
+}
+
 TEST(FsmCheckpoint, RestoreAsksWhetherTheStateMayBeEntered) {
   Fixture f;
   f.kettle.locked = "the lid is open";
