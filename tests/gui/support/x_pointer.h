@@ -1,0 +1,22 @@
+#pragma once
+
+#include <memory>
+
+namespace kiln::gui {
+
+/// The pointer and the keyboard of the X display as a hand moves them: events come from the server,
+/// through the window manager, as from a device (extension XTEST).
+class XPointer {
+ public:
+  XPointer();  ///< throws std::runtime_error without a display or the extension
+  ~XPointer();
+  void moveTo(int x_px, int y_px);  ///< of the screen
+  void press();                     ///< left button
+  void release();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace kiln::gui
