@@ -49,6 +49,7 @@ class MainWindow : public QWidget {
   [[nodiscard]] AlarmStrip* alarmStrip() const { return alarms_; }
   [[nodiscard]] ForcedJump& jump() { return jump_; }
   [[nodiscard]] MacrosTile* macrosTile() const { return macros_; }
+  [[nodiscard]] HoldToRun& hold() { return hold_; }
   void showLog(bool shown);
 
  protected:

@@ -71,7 +71,9 @@ MacrosTile::MacrosTile(const Ui& ui, HoldToRun& hold, QWidget* parent)
   restyle();
 }
 
-MacrosTile::~MacrosTile() { letGo(); }
+MacrosTile::~MacrosTile() {
+  if (hold_.holding()) hold_.releaseAll(tr("the controls are gone"));
+}
 
 void MacrosTile::setHands(QWidget* panel) {
   delete std::exchange(hands_, panel);

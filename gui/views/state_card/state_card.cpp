@@ -135,7 +135,9 @@ void StateCard::refreshNotice() {
   }
   notice_->set(text, fault ? BannerKind::Fault : good ? BannerKind::Good : BannerKind::Caution);
   release_->setVisible(status && needsRelease(status->arm.safety));
-  release_->setEnabled(models_.mayCommand());
+  QString why;
+  release_->setEnabled(models_.mayCommand(&why));
+  setTip(*release_, why.isEmpty() ? release_->subtext() : why);
 }
 
 void StateCard::refresh() {

@@ -1,9 +1,13 @@
+#include <QGuiApplication>
 #include <QLineEdit>
+#include <QScreen>
+#include <QTemporaryDir>
 #include <QTest>
 
 #include <gtest/gtest.h>
 
 #include "gui/app/main_window.h"
+#include "gui/app/window_memory.h"
 #include "gui/views/alarm_strip/alarm_strip.h"
 #include "gui/views/fsm_graph/fsm_tile.h"
 #include "gui/views/state_card/state_card.h"
@@ -79,6 +83,28 @@ TEST_P(WindowTest, TheThemeChangesAndThePictureWithIt) {
   };
   EXPECT_LT(brightness(dark), 80.0);
   EXPECT_GT(brightness(light), 150.0);
+}
+
+TEST(WindowMemory, TheWindowOpensWithinItsScreenAndAsItWasLeft) {
+  const QTemporaryDir folder;
+  const QString file = folder.filePath("station.ini");
+  const QRect room = QGuiApplication::primaryScreen()->availableGeometry();
+  {
+    QWidget window;
+    WindowMemory memory(file);
+    memory.place(window, {9000, 5000});
+    window.show();
+    EXPECT_TRUE(room.contains(window.frameGeometry())) << "larger than the screen";
+  }
+  QWidget left;
+  left.setGeometry(37, 61, 801, 603);
+  left.show();
+  WindowMemory(file).keep(left, ThemeKind::Light);
+  QWidget again;
+  const WindowMemory memory(file);
+  memory.place(again, {});
+  EXPECT_EQ(again.size(), left.size());
+  EXPECT_EQ(memory.theme(), ThemeKind::Light);
 }
 
 INSTANTIATE_TEST_SUITE_P(Sizes, WindowTest,

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <memory>
+
+namespace kiln::gui {
+
+/// The pointer of the X display as a hand moves it: events come from the server, through the window
+/// manager, as from a device (extension XTEST).
+class XPointer {
+ public:
+  XPointer();  ///< throws std::runtime_error without a display or the extension
+  ~XPointer();
+  /// A window manager is at work on this display.
+  [[nodiscard]] bool managed() const;
+  void moveTo(int x_px, int y_px);  ///< of the screen
+  void press();                     ///< left button
+  void release();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace kiln::gui
