@@ -14,6 +14,7 @@
 #include "gui/app/screenshots.h"
 #include "gui/app/stall_meter.h"
 #include "gui/app/stop_probe.h"
+#include "gui/app/tile_layout.h"
 #include "gui/app/window_memory.h"
 #include "gui/link/replay_link.h"
 #include "gui/link/robot_link.h"
@@ -91,6 +92,7 @@ int run(int argc, char** argv, const StationOptions& options) {
       {theme, steady}, models,
       {geometry, !options.flat && openGlAvailable(), qobject_cast<ReplayLink*>(link)});
   memory.place(window, {options.width, options.height});
+  window.tileLayout().choose(memory.choices());
   window.show();
   StallMeter stalls(steady);
   if (options.stall_report)
@@ -145,7 +147,7 @@ int run(int argc, char** argv, const StationOptions& options) {
   const Stamp opened = steady.now();
   const int code = QApplication::exec();
   link->close();
-  memory.keep(window, theme.kind());
+  memory.keep(window, theme.kind(), window.tileLayout().choices());
   const bool pictures_written = !screenshots || screenshots->finish();
   if (options.stall_report) {
     const SceneCanvas& scene = window.sceneTile()->canvas();

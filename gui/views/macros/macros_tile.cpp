@@ -1,5 +1,6 @@
 #include "gui/views/macros/macros_tile.h"
 
+#include <QApplication>
 #include <QHBoxLayout>
 #include <QScrollArea>
 #include <algorithm>
@@ -134,6 +135,11 @@ void MacrosTile::refresh() {
                  : !why.isEmpty() ? tr("macros: %1").arg(why)
                                   : last);
   setTip(*note_, note_->text());
+  const QWidget* focus = QApplication::focusWidget();
+  const bool here = focus && (focus == this || isAncestorOf(focus));
+  setInfo(!hold_.lock(HoldKind::Base).isEmpty() ? QString()
+          : here                                ? tr("jog keys drive")
+                                                : tr("click here: jog keys drive"));
 }
 
 void MacrosTile::restyle() {

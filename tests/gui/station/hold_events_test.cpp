@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "gui/app/main_window.h"
+#include "gui/app/tile_layout.h"
 #include "gui/panels/fire/pump_panel.h"
 #include "gui/views/macros/macros_tile.h"
 #include "gui/views/teleop/teleop_tile.h"
@@ -192,6 +193,29 @@ TEST_F(HoldEventsTest, HeldOnTheRobotIfAndOnlyIfPressed) {
   for (const auto& [why, times] : trips)
     EXPECT_LT(times, sequences / 5) << "let go by the window itself: " << why;
   EXPECT_GT(held_seen, sequences / 4) << "most presses were in vain: nothing was tried";
+}
+
+TEST_F(HoldEventsTest, JogKeysDriveWhileTheMacrosAreInFront) {
+  window->resize(1400, 800);
+  window->tileLayout().showMacros(true);
+  MacrosTile* macros = window->macrosTile();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return macros->isVisible() && macros->height() > 100; }));
+  moveTo(macros->mapToGlobal({60, 12}));
+  hand.press();
+  hand.release();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return macros->hasFocus(); }, kAnswer_ms));
+  hand.key('w', true);
+  EXPECT_TRUE(
+      QTest::qWaitFor([&] { return link.robot().held(kiln::HoldKind::BaseJog); }, kAnswer_ms));
+  HoldButton& pump = window->findChild<PumpPanel*>()->pump();
+  moveTo(pump.mapToGlobal(pump.rect().center()));
+  hand.press();  // water while it drives
+  EXPECT_TRUE(
+      QTest::qWaitFor([&] { return link.robot().held(kiln::HoldKind::Actuator); }, kAnswer_ms));
+  EXPECT_TRUE(link.robot().held(kiln::HoldKind::BaseJog));
+  hand.release();
+  hand.key('w', false);
+  EXPECT_TRUE(QTest::qWaitFor([&] { return !anyHeld(); }, kAnswer_ms));
 }
 
 TEST_F(HoldEventsTest, AWindowThatGoesWhilePressedLetsGo) {

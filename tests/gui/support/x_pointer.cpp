@@ -46,6 +46,11 @@ void XPointer::moveTo(int x_px, int y_px) {
 }
 
 void XPointer::press() { impl_->button(true); }
+void XPointer::key(unsigned long keysym, bool down) {
+  XTestFakeKeyEvent(impl_->display, XKeysymToKeycode(impl_->display, keysym), down ? 1 : 0,
+                    CurrentTime);
+  XSync(impl_->display, 0);
+}
 void XPointer::release() { impl_->button(false); }
 
 }  // namespace kiln::gui

@@ -4,7 +4,7 @@
 
 namespace kiln::gui {
 
-/// The pointer of the X display as a hand moves it: events come from the server, through the window
+/// Pointer and keyboard of the X display as a hand moves them: events come from the server, through the window
 /// manager, as from a device (extension XTEST).
 class XPointer {
  public:
@@ -15,6 +15,7 @@ class XPointer {
   void moveTo(int x_px, int y_px);  ///< of the screen
   void press();                     ///< left button
   void release();
+  void key(unsigned long keysym, bool down);  ///< X11/keysymdef.h; a letter is its ASCII code
 
  private:
   struct Impl;
