@@ -14,6 +14,8 @@
 #include "gui/app/screenshots.h"
 #include "gui/app/stall_meter.h"
 #include "gui/app/stop_probe.h"
+#include "gui/app/tile_layout.h"
+#include "gui/app/window_memory.h"
 #include "gui/link/replay_link.h"
 #include "gui/link/robot_link.h"
 #include "gui/views/scene3d/scene_renderer.h"
@@ -64,7 +66,9 @@ Result<std::unique_ptr<Link>> makeLink(const StationOptions& options) {
 int run(int argc, char** argv, const StationOptions& options) {
   QApplication app(argc, argv);
   QApplication::setApplicationName(QStringLiteral("kiln-station"));
-  Theme theme(options.theme);
+  QApplication::setOrganizationName(QStringLiteral("kiln"));
+  WindowMemory memory;
+  Theme theme(options.theme.value_or(memory.theme()));
   theme.apply();
   RobotGeometry geometry;
   if (const auto path = resourcePath("robot_model/bob.yaml")) {
@@ -87,7 +91,8 @@ int run(int argc, char** argv, const StationOptions& options) {
   MainWindow window(
       {theme, steady}, models,
       {geometry, !options.flat && openGlAvailable(), qobject_cast<ReplayLink*>(link)});
-  window.resize(options.width, options.height);
+  memory.place(window, {options.width, options.height});
+  window.tileLayout().choose(memory.choices());
   window.show();
   StallMeter stalls(steady);
   if (options.stall_report)
@@ -142,6 +147,7 @@ int run(int argc, char** argv, const StationOptions& options) {
   const Stamp opened = steady.now();
   const int code = QApplication::exec();
   link->close();
+  memory.keep(window, theme.kind(), window.tileLayout().choices());
   const bool pictures_written = !screenshots || screenshots->finish();
   if (options.stall_report) {
     const SceneCanvas& scene = window.sceneTile()->canvas();

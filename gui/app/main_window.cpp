@@ -5,9 +5,9 @@
 #include <QKeyEvent>
 #include <QLineEdit>
 #include <QPainter>
-#include <algorithm>
 
 #include "gui/app/mission_panels.h"
+#include "gui/app/tile_layout.h"
 #include "gui/views/alarm_strip/alarm_strip.h"
 #include "gui/views/camera/camera_tile.h"
 #include "gui/views/fsm_graph/fsm_tile.h"
@@ -20,24 +20,12 @@
 #include "gui/views/teleop/teleop_tile.h"
 #include "gui/views/timeline/timeline_view.h"
 #include "gui/views/top_bar/top_bar.h"
-#include "gui/widgets/act_button.h"
 
 namespace kiln::gui {
 
 namespace {
 constexpr int kFrame_px = 4;
 constexpr int kGap_px = 6;
-constexpr double kLeftShare = 0.285;
-constexpr double kRightShare = 0.240;
-constexpr int kLeftMin_px = 340, kLeftMax_px = 500;
-constexpr int kRightMin_px = 366, kRightMax_px = 430;
-constexpr double kImagesShare = 0.20;
-constexpr int kImagesMin_px = 186, kImagesMax_px = 300;
-/// Below this height take-over and macros share one place, with two tabs.
-constexpr int kLow_px = 900;
-constexpr int kTab_px = 30;
-constexpr double kBottomShare = 0.21;
-constexpr int kBottomMin_px = 140, kBottomMax_px = 250;
 }  // namespace
 
 MainWindow::MainWindow(const Ui& ui, StationModels& models, const Options& options)
@@ -50,20 +38,24 @@ MainWindow::MainWindow(const Ui& ui, StationModels& models, const Options& optio
       state_(new StateCard(ui, models, jump_)),
       alarms_(new AlarmStrip(ui, models)) {
   setWindowTitle(QStringLiteral("Kiln station"));
-  setMinimumSize(1280, 720);
+  setMinimumSize(TileLayout::kLeast);
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(kFrame_px, kFrame_px, kFrame_px, kFrame_px);
   column->setSpacing(kGap_px);
   column->addWidget(top_bar_);
-  column->addLayout(makeMiddle(options), 1);
+  makeTiles(options);
+  column->addLayout(layout_->middle(), 1);
   if (options.replay) {
     replay_bar_ = new ReplayBar(ui_, *options.replay);
     column->addWidget(replay_bar_);
   }
-  column->addWidget(makeBottom());
+  column->addLayout(layout_->bottom());
   column->addWidget(alarms_);
   new MissionPanels({ui_, models_, hold_}, {image_row_, scene_, macros_}, *options.panels, this);
-  connect(alarms_, &AlarmStrip::logRequested, this, [this] { showLog(log_tile_->isHidden()); });
+  connect(alarms_, &AlarmStrip::logRequested, this, [this] { showLog(!layout_->logShown()); });
+  connect(&jump_, &ForcedJump::changed, this, [this] {
+    if (jump_.phase() != ForcedJump::Phase::Idle) layout_->bringToFront(*fsm_);
+  });
   connect(&models_, &StationModels::aged, this, &MainWindow::refreshFrame);
   connect(&models_.status, &Model::changed, this, &MainWindow::refreshFrame);
   connect(&models_.lease, &Model::changed, this, &MainWindow::refreshFrame);
@@ -77,82 +69,29 @@ MainWindow::~MainWindow() {
   qDeleteAll(findChildren<QWidget*>(QString(), Qt::FindDirectChildrenOnly));
 }
 
-QBoxLayout* MainWindow::makeMiddle(const Options& options) {
-  auto* middle = new QHBoxLayout;
-  middle->setSpacing(kGap_px);
-  middle->addWidget(fsm_);
-  auto* centre = new QVBoxLayout;
-  centre->setSpacing(kGap_px);
+void MainWindow::makeTiles(const Options& options) {
   scene_ = new SceneTile(ui_, models_, options.geometry, options.open_gl);
-  centre->addWidget(scene_, 1);
-  images_ = new QWidget;
-  image_row_ = new QHBoxLayout(images_);
+  auto* images = new QWidget;
+  image_row_ = new QHBoxLayout(images);
   image_row_->setContentsMargins(0, 0, 0, 0);
   image_row_->setSpacing(kGap_px);
   image_row_->addWidget(new CameraTile(ui_, models_), 5);
-  centre->addWidget(images_);
-  middle->addLayout(centre, 1);
-  middle->addWidget(makeRight());
-  return middle;
-}
-
-QWidget* MainWindow::makeRight() {
-  right_ = new QWidget;
-  auto* right = new QVBoxLayout(right_);
-  right->setContentsMargins(0, 0, 0, 0);
-  right->setSpacing(kGap_px);
-  tabs_ = new QWidget;
-  auto* tabs = new QHBoxLayout(tabs_);
-  tabs->setContentsMargins(0, 0, 0, 0);
-  tabs->setSpacing(kGap_px);
-  teleop_tab_ = new ActButton(ui_, tr("Take over"));
-  macros_tab_ = new ActButton(ui_, tr("Macros"));
-  for (ActButton* tab : {teleop_tab_, macros_tab_}) {
-    tab->setFixedHeight(kTab_px);
-    tabs->addWidget(tab, 1);
-    connect(tab, &QAbstractButton::clicked, this, [this, tab] {
-      macros_in_front_ = tab == macros_tab_;
-      arrangeRight();
-    });
-  }
-  teleop_ = new TeleopTile(ui_, hold_);
+  auto* teleop = new TeleopTile(ui_, hold_);
   macros_ = new MacrosTile(ui_, hold_);
-  right->addWidget(state_, 1);
-  right->addWidget(tabs_);
-  right->addWidget(teleop_);
-  right->addWidget(macros_);
-  return right_;
-}
-
-void MainWindow::arrangeRight() {
-  const bool low = height() < kLow_px;
-  tabs_->setVisible(low);
-  teleop_->setVisible(!low || !macros_in_front_);
-  macros_->setVisible(!low || macros_in_front_);
-  teleop_tab_->setKind(macros_in_front_ ? ActKind::Normal : ActKind::Primary);
-  macros_tab_->setKind(macros_in_front_ ? ActKind::Primary : ActKind::Normal);
-}
-
-QWidget* MainWindow::makeBottom() {
-  auto* bottom = new QWidget;
-  auto* row = new QHBoxLayout(bottom);
-  row->setContentsMargins(0, 0, 0, 0);
-  row->setSpacing(kGap_px);
+  teleop->panel().listenIn(*macros_);
   timeline_ = new TimelineView(ui_, models_);
   timeline_tile_ = new Tile(ui_, tr("Timeline"));
   timeline_tile_->setContent(timeline_);
   timeline_tile_->addHeaderWidget(new RecordChip(ui_, models_));
-  log_tile_ = new Tile(ui_, tr("Event log"));
-  log_tile_->setContent(new LogView(ui_, models_));
-  log_tile_->hide();
-  row->addWidget(timeline_tile_, 3);
-  row->addWidget(log_tile_, 2);
+  auto* log = new Tile(ui_, tr("Event log"));
+  log->setContent(new LogView(ui_, models_));
   connect(timeline_, &TimelineView::viewChanged, this, &MainWindow::refreshTimelineTile);
   refreshTimelineTile();
-  return bottom;
+  layout_ = new TileLayout(
+      ui_, {fsm_, scene_, images, timeline_tile_, log, state_, teleop, macros_}, *this);
 }
 
-void MainWindow::showLog(bool shown) { log_tile_->setVisible(shown); }
+void MainWindow::showLog(bool shown) { layout_->showLog(shown); }
 
 void MainWindow::refreshTimelineTile() {
   timeline_tile_->setInfo(
@@ -191,18 +130,7 @@ void MainWindow::paintEvent(QPaintEvent*) {
                                            -kFrame_px / 2.0));
 }
 
-void MainWindow::resizeEvent(QResizeEvent*) {
-  const auto share = [](int whole, double part, int low, int high) {
-    return std::clamp(static_cast<int>(whole * part), low, high);
-  };
-  fsm_->setFixedWidth(share(width(), kLeftShare, kLeftMin_px, kLeftMax_px));
-  right_->setFixedWidth(share(width(), kRightShare, kRightMin_px, kRightMax_px));
-  images_->setFixedHeight(share(height(), kImagesShare, kImagesMin_px, kImagesMax_px));
-  arrangeRight();
-  const int bottom = share(height(), kBottomShare, kBottomMin_px, kBottomMax_px);
-  timeline_tile_->setFixedHeight(bottom);
-  log_tile_->setFixedHeight(bottom);
-}
+void MainWindow::resizeEvent(QResizeEvent*) { layout_->arrange(size()); }
 
 bool MainWindow::eventFilter(QObject* watched, QEvent* event) {
   // Keys are taken before any widget sees them: STOP must not depend on where the focus is.
@@ -270,6 +198,7 @@ bool MainWindow::handleKey(int key, bool typing) {
   }
   if (typing) return false;
   if (key == Qt::Key_Slash) {
+    layout_->bringToFront(*fsm_);
     fsm_->beginSearch();
     return true;
   }
@@ -278,7 +207,7 @@ bool MainWindow::handleKey(int key, bool typing) {
     return true;
   }
   if (key == Qt::Key_L) {
-    showLog(log_tile_->isHidden());
+    showLog(!layout_->logShown());
     return true;
   }
   return false;

@@ -9,9 +9,7 @@
 #include "gui/views/teleop/hold_to_run.h"
 #include "gui/widgets/tile.h"
 
-class QBoxLayout;
 class QHBoxLayout;
-class QStackedLayout;
 
 namespace kiln::gui {
 
@@ -23,11 +21,11 @@ class ReplayBar;
 class ReplayLink;
 class SceneTile;
 class StateCard;
-class TeleopTile;
+class TileLayout;
 class TimelineView;
 class TopBar;
 
-/// The station's one window: where the tiles stand, the frame that tells who drives, and the keys.
+/// The station's one window: its tiles, the frame that tells who drives, and the keys.
 /// Nothing else.
 class MainWindow : public QWidget {
   Q_OBJECT
@@ -49,6 +47,8 @@ class MainWindow : public QWidget {
   [[nodiscard]] AlarmStrip* alarmStrip() const { return alarms_; }
   [[nodiscard]] ForcedJump& jump() { return jump_; }
   [[nodiscard]] MacrosTile* macrosTile() const { return macros_; }
+  [[nodiscard]] HoldToRun& hold() { return hold_; }
+  [[nodiscard]] TileLayout& tileLayout() { return *layout_; }
   void showLog(bool shown);
 
  protected:
@@ -59,10 +59,7 @@ class MainWindow : public QWidget {
  private:
   enum class Frame { None, Driving, Degraded, Replay };
   [[nodiscard]] Frame frame() const;
-  QBoxLayout* makeMiddle(const Options& options);
-  QWidget* makeRight();
-  void arrangeRight();
-  QWidget* makeBottom();
+  void makeTiles(const Options& options);
   void refreshFrame();
   void refreshTimelineTile();
   bool handleKey(int key, bool typing);
@@ -75,17 +72,11 @@ class MainWindow : public QWidget {
   FsmTile* fsm_;
   StateCard* state_;
   SceneTile* scene_ = nullptr;
-  QWidget* images_ = nullptr;
   QHBoxLayout* image_row_ = nullptr;
-  QWidget* right_ = nullptr;
-  QWidget* tabs_ = nullptr;  ///< of a low window, where take-over and macros share one place
-  ActButton *teleop_tab_ = nullptr, *macros_tab_ = nullptr;
-  TeleopTile* teleop_ = nullptr;
   MacrosTile* macros_ = nullptr;
-  bool macros_in_front_ = false;
   Tile* timeline_tile_ = nullptr;
   TimelineView* timeline_ = nullptr;
-  Tile* log_tile_ = nullptr;
+  TileLayout* layout_ = nullptr;
   AlarmStrip* alarms_;
   ReplayBar* replay_bar_ = nullptr;
   Frame shown_frame_ = Frame::None;

@@ -19,14 +19,15 @@ std::optional<int> parseOptions(int argc, char** argv, StationOptions& options) 
       ->capture_default_str();
   app.add_option("--operator", options.operator_name, "name shown to other stations")
       ->capture_default_str();
-  app.add_option("--theme", options.theme, "dark or light (key T toggles)")
+  app.add_option("--theme", options.theme, "dark or light (key T toggles); else as it was left")
       ->transform(CLI::CheckedTransformer(themes));
   app.add_option("--screenshot", options.screenshots,
                  "save a picture at each new state and at the end into this folder");
   app.add_option("--replay", options.replay,
                  "play a recording (.mcap) in the window; nothing can be commanded");
   std::string size;
-  app.add_option("--size", size, "window size, WxH, at least 1280x720");
+  app.add_option("--size", size,
+                 "window size, WxH, at least 944x500; else as it was left, within the screen");
   app.add_flag("--exit-when-done", options.exit_when_done, "leave when the mission has ended");
   app.add_flag("--stall-report", options.stall_report,
                "print the gaps of the event loop at the end");
@@ -41,10 +42,10 @@ std::optional<int> parseOptions(int argc, char** argv, StationOptions& options) 
     return app.exit(error) == 0 ? 0 : 2;
   }
   if (!size.empty() && (std::sscanf(size.c_str(), "%dx%d", &options.width, &options.height) != 2 ||
-                        options.width < 1280 || options.height < 720 || options.width > 16384 ||
+                        options.width < 944 || options.height < 500 || options.width > 16384 ||
                         options.height > 16384)) {
     std::cerr << "kiln-station: --size " << size
-              << " is not WIDTHxHEIGHT of at least 1280x720, e.g. 1680x1020\n";
+              << " is not WIDTHxHEIGHT of at least 944x500, e.g. 1680x1020\n";
     return 2;
   }
   return std::nullopt;

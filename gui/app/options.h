@@ -12,10 +12,10 @@ namespace kiln::gui {
 struct StationOptions {
   std::string endpoint = "tcp://127.0.0.1:7300";
   std::string operator_name = "operator";
-  ThemeKind theme = ThemeKind::Dark;
-  std::string screenshots;  ///< folder; empty = none
-  std::string replay;       ///< recording to play; empty = none
-  int width = 1680, height = 1020;
+  std::optional<ThemeKind> theme;  ///< nullopt: as the window was left
+  std::string screenshots;         ///< folder; empty = none
+  std::string replay;              ///< recording to play; empty = none
+  int width = 0, height = 0;       ///< 0: as the window was left
   bool exit_when_done = false;
   bool stall_report = false;
   int measure_stop = 0;  ///< presses of the STOP key to time, then leave; 0 = none

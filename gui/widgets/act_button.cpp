@@ -14,13 +14,11 @@ constexpr int kPadX_px = 12;
 constexpr int kPadY_px = 7;
 constexpr double kRadius_px = 4.0;
 constexpr int kMostTitleLines = 2, kMostSubLines = 4;
-constexpr double kSmallest =
-    0.85;  // of a font that is too wide; more is not readable from a step away
+constexpr int kNarrowest_pct = 85;  // of a font that is too wide
 
-/// One line, a little smaller if need be; else as many lines as there may be.
+/// One line, a little narrower if need be; else as many lines as there may be.
 FittedText fitLines(const QString& text, const QFont& font, int width_px, int max_lines) {
-  QFont smaller = font;
-  smaller.setPointSizeF(font.pointSizeF() * kSmallest);
+  const QFont smaller = condensed(font, kNarrowest_pct);
   FittedText out = fitText(text, {font, smaller}, width_px, 1);
   if (!out.whole && max_lines > 1) out = fitText(text, {font, smaller}, width_px, max_lines);
   return out;

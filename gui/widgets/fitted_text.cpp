@@ -28,6 +28,11 @@ bool fits(const QStringList& lines, const QFontMetrics& metrics, int width_px, i
 }
 }  // namespace
 
+QFont condensed(QFont font, int percent) {
+  font.setStretch(percent);
+  return font;
+}
+
 FittedText fitText(const QString& text, const std::vector<QFont>& fonts, int width_px,
                    int max_lines) {
   FittedText out;

@@ -9,8 +9,8 @@ class QRectF;
 
 namespace kiln::gui {
 
-/// A text broken into lines for a given room. What an operator must read is wrapped or set smaller,
-/// not cut: only what fits in no way loses its end ("…"), and `whole` then says so.
+/// A text broken into lines for a given room. What an operator must read is wrapped or set
+/// narrower, not cut: only what fits in no way loses its end ("…"), and `whole` then says so.
 struct FittedText {
   QFont font;
   QStringList lines;
@@ -18,6 +18,9 @@ struct FittedText {
   bool whole = true;
   [[nodiscard]] int height() const { return line_px * static_cast<int>(lines.size()); }
 };
+
+/// The same height, narrower: what does not fit becomes condensed, never lower than can be read.
+[[nodiscard]] QFont condensed(QFont font, int percent);
 
 /// @param fonts      first choice first; at least one.
 /// @param max_lines  at least 1.

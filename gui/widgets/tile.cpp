@@ -2,6 +2,7 @@
 
 #include <QEvent>
 #include <QHBoxLayout>
+#include <QMouseEvent>
 #include <QPainter>
 
 #include "gui/widgets/hatch.h"
@@ -167,6 +168,13 @@ void Tile::paintEvent(QPaintEvent*) {
   painter.setPen(
       QPen(level_ == AgeLevel::Red ? p.caution : p.border, level_ == AgeLevel::Red ? 1.6 : 1.0));
   painter.drawRoundedRect(QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5), kRadius_px, kRadius_px);
+}
+
+void Tile::mouseDoubleClickEvent(QMouseEvent* event) {
+  if (event->button() == Qt::LeftButton && event->pos().y() < kHeader_px)
+    emit titleDoubleClicked();
+  else
+    QFrame::mouseDoubleClickEvent(event);
 }
 
 void Tile::resizeEvent(QResizeEvent* event) {

@@ -29,7 +29,11 @@ class Tile : public QFrame {
   [[nodiscard]] AgeLevel ageLevel() const { return level_; }
   [[nodiscard]] bool hatched() const;
 
+ signals:
+  void titleDoubleClicked();
+
  protected:
+  void mouseDoubleClickEvent(QMouseEvent* event) override;
   void paintEvent(QPaintEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
   bool eventFilter(QObject* watched, QEvent* event) override;

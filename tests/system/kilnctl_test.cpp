@@ -97,6 +97,40 @@ TEST(KilnctlProgram, JogsForItsTimeThenSendsZerosAndGivesControlBack) {
   EXPECT_TRUE(robot.authority.lease(robot.clock.now()).holder_client.empty());
 }
 
+TEST(KilnctlProgram, JogsAtTheSpeedThatItIsTold) {
+  const TempFolder folder;
+  LinkedRobot robot(folder.endpoint());  // at a speed scale of 0.35
+  Kilnctl ctl(folder.endpoint(), {"jog", "base", "0.2", "0", "0", "--seconds", "0.2"});
+  ASSERT_TRUE(tickUntil(robot, [&] { return ctl.ended(); }));
+  double asked_mps = 0.0;
+  for (const auto& a : robot.accepted)
+    if (const auto* jog = std::get_if<JogBase>(&a.command.body)) asked_mps = jog->twist.vx_mps;
+  EXPECT_NEAR(asked_mps * 0.35, 0.2, 1e-6);
+  Kilnctl fast(folder.endpoint(), {"jog", "base", "0.6", "0", "0", "--seconds", "0.2"});
+  ASSERT_TRUE(tickUntil(robot, [&] { return fast.ended(); }));
+  EXPECT_EQ(fast.exitCode(), 1);
+  EXPECT_THAT(fast.text(), HasSubstr("needs a speed scale of 0.60"));
+}
+
+TEST(KilnctlProgram, WrongUsageIsStatusTwo) {
+  const TempFolder folder;
+  LinkedRobot robot(folder.endpoint());
+  for (const std::vector<std::string>& args : std::vector<std::vector<std::string>>{
+           {"stat"}, {"lease", "aquire"}, {"state", "--timeout", "-1"}}) {
+    Kilnctl ctl(folder.endpoint(), args);
+    ASSERT_TRUE(tickUntil(robot, [&] { return ctl.ended(); }));
+    EXPECT_EQ(ctl.exitCode(), 2) << args.front();
+  }
+}
+
+TEST(KilnctlProgram, OptionsMayStandBehindTheCommand) {
+  const TempFolder folder;
+  LinkedRobot robot(folder.endpoint());
+  Kilnctl ctl(folder.endpoint(), {"state", "--json", "--timeout", "5"});
+  ASSERT_TRUE(tickUntil(robot, [&] { return ctl.ended(); }));
+  EXPECT_EQ(ctl.exitCode(), 0);
+}
+
 TEST(KilnctlProgram, EverySignalIsARelease) {
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
     const TempFolder folder;

@@ -84,12 +84,10 @@ void MacroRow::paintEvent(QPaintEvent*) {
   painter.setPen(isEngaged() ? p.manual : isEnabled() ? p.dim : p.faint);
   painter.drawText(text, Qt::AlignRight | Qt::AlignTop, hint);
   // What it does and where it may start needs the whole width: the hint stands beside the name.
-  QFont smaller = small;
-  smaller.setPointSizeF(0.88 * small.pointSizeF());
   const int room = static_cast<int>(text.width());
   painter.setPen(isEnabled() ? p.dim : p.faint);
   paintFitted(painter, text, Qt::AlignLeft | Qt::AlignBottom,
-              fitText(line(), {small, smaller}, room, 1));
+              fitText(line(), {small, condensed(small, 88)}, room, 1));
   painter.setPen(isEnabled() ? p.text : p.faint);
   paintFitted(painter, text, Qt::AlignLeft | Qt::AlignTop,
               fitText(QString::fromStdString(macro_.name), {strong, small},

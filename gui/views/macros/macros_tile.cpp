@@ -1,5 +1,6 @@
 #include "gui/views/macros/macros_tile.h"
 
+#include <QApplication>
 #include <QHBoxLayout>
 #include <QScrollArea>
 #include <algorithm>
@@ -71,7 +72,9 @@ MacrosTile::MacrosTile(const Ui& ui, HoldToRun& hold, QWidget* parent)
   restyle();
 }
 
-MacrosTile::~MacrosTile() { letGo(); }
+MacrosTile::~MacrosTile() {
+  if (hold_.holding()) hold_.releaseAll(tr("the controls are gone"));
+}
 
 void MacrosTile::setHands(QWidget* panel) {
   delete std::exchange(hands_, panel);
@@ -132,6 +135,11 @@ void MacrosTile::refresh() {
                  : !why.isEmpty() ? tr("macros: %1").arg(why)
                                   : last);
   setTip(*note_, note_->text());
+  const QWidget* focus = QApplication::focusWidget();
+  const bool here = focus && (focus == this || isAncestorOf(focus));
+  setInfo(!hold_.lock(HoldKind::Base).isEmpty() ? QString()
+          : here                                ? tr("jog keys drive")
+                                                : tr("click here: jog keys drive"));
 }
 
 void MacrosTile::restyle() {

@@ -123,12 +123,11 @@ void LocalizationChip::paintEvent(QPaintEvent*) {
   paintMark(painter, {kPadding_px + 6.0, 13.0}, color);
   const int x = kPadding_px + kMark_px, room = width() - x - kPadding_px + 2;
   const QFont strong = ui_.theme.font(TextRole::Strong), small = ui_.theme.font(TextRole::Small);
-  QFont smaller = strong, smallest = strong;
-  smaller.setPointSizeF(0.92 * strong.pointSizeF());
-  smallest.setPointSizeF(0.84 * strong.pointSizeF());
+  QFont smaller = strong;
+  smaller.setPointSizeF(small.pointSizeF());
   painter.setPen(p.text);
   paintFitted(painter, QRectF(x, 3, room, 19), Qt::AlignVCenter | Qt::AlignLeft,
-              fitText(title(), {strong, smaller, smallest}, room, 1));
+              fitText(title(), {strong, smaller, condensed(smaller, 92)}, room, 1));
   painter.setFont(small);
   painter.setPen(shown == Mark::Good ? p.dim : p.text);
   painter.drawText(detailArea(width()), int{Qt::TextWordWrap} | Qt::AlignLeft, detail());

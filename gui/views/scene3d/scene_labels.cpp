@@ -17,7 +17,7 @@ QColor qt(Rgb c, int alpha = 255) { return {c.r, c.g, c.b, alpha}; }
 
 QFont scaled(const QFont& base, double factor, bool bold) {
   QFont font = base;
-  font.setPointSizeF(std::max(8.0, base.pointSizeF() * factor));
+  font.setPointSizeF(std::max(9.0, base.pointSizeF() * factor));
   font.setBold(bold);
   return font;
 }

@@ -11,7 +11,7 @@ namespace kiln::gui {
 
 namespace {
 constexpr int kRow_px = 22, kPassing_px = 19, kMark_px = 20, kGap_px = 4, kBetween_px = 8;
-constexpr double kSmallest = 0.88;
+constexpr int kNarrowest_pct = 88;
 
 QString text(const std::string& s) { return QString::fromStdString(s); }
 /// Needs the operator's eyes.
@@ -141,11 +141,9 @@ void PreflightList::paintPassing(QPainter& painter, const Check& check, int y) c
                    Qt::AlignVCenter | Qt::AlignLeft, text(check.name));
   painter.setPen(p.dim);
   const int room = std::max(0, width() - kMark_px - name);
-  QFont smaller = small;
-  smaller.setPointSizeF(small.pointSizeF() * kSmallest);
   paintFitted(painter, QRectF(kMark_px + name, y, room, kPassing_px),
               Qt::AlignVCenter | Qt::AlignRight,
-              fitText(text(check.detail), {small, smaller}, room, 1));
+              fitText(text(check.detail), {small, condensed(small, kNarrowest_pct)}, room, 1));
 }
 
 void PreflightList::paintEvent(QPaintEvent*) {

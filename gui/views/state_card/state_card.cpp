@@ -14,6 +14,7 @@ constexpr int kMaxExits = 4;
 constexpr int kExitsBesideRelease = 2;  // the release needs the room
 constexpr int kExitsInOneColumn = 2;    // more stand two a row, and their texts are shorter
 constexpr int kLow_px = 300;
+constexpr int kTight_px = 200;  // no room for exits; they are in the graph
 constexpr double kInputAmber_s = 0.5;
 constexpr double kInputRed_s = 2.0;
 constexpr double kInputShown_s = 0.005;
@@ -135,7 +136,9 @@ void StateCard::refreshNotice() {
   }
   notice_->set(text, fault ? BannerKind::Fault : good ? BannerKind::Good : BannerKind::Caution);
   release_->setVisible(status && needsRelease(status->arm.safety));
-  release_->setEnabled(models_.mayCommand());
+  QString why;
+  release_->setEnabled(models_.mayCommand(&why));
+  setTip(*release_, why.isEmpty() ? release_->subtext() : why);
 }
 
 void StateCard::refresh() {
@@ -208,7 +211,8 @@ void StateCard::refreshExits() {
   const bool may = models_.mayCommand(&why);
   // The checks need the room; a recording has no use for exits.
   const bool checks = !preflight_->isHidden() || models_.link.readOnly();
-  const int shown = checks ? 0 : release_->isHidden() ? kMaxExits : kExitsBesideRelease;
+  const bool room = height() >= kTight_px;
+  const int shown = checks || !room ? 0 : release_->isHidden() ? kMaxExits : kExitsBesideRelease;
   for (std::size_t i = 0; i < exits_.size(); ++i) {
     ActButton* button = exits_[i];
     button->setVisible(static_cast<int>(i) < shown);
@@ -216,7 +220,7 @@ void StateCard::refreshExits() {
     setTip(*button,
            may ? tr("%1\nThen hold to jump, below the graph.").arg(button->subtext()) : why);
   }
-  exits_title_->set(exits_.empty() || checks ? QString{} : tr("Go to instead"));
+  exits_title_->set(exits_.empty() || shown == 0 ? QString{} : tr("Go to instead"));
 }
 
 }  // namespace kiln::gui

@@ -14,7 +14,7 @@ constexpr int kMark_px = 20;
 constexpr int kSlack_px = 4;    // a row may lose so much of its air
 constexpr int kSecond_px = 15;  // a detail below its name
 constexpr int kBetween_px = 8;
-constexpr double kSmallest = 0.9;
+constexpr int kNarrowest_pct = 90;
 }  // namespace
 
 TickList::TickList(const Ui& ui, QWidget* parent) : QWidget(parent), ui_(ui) {
@@ -101,11 +101,10 @@ void TickList::paintRow(QPainter& painter, std::size_t i, int y) const {
   painter.setPen(row.mark == Mark::Attention && row.level == AgeLevel::Fresh
                      ? p.caution
                      : ui_.theme.ageColor(row.level));
-  QFont smallest = small;
-  smallest.setPointSizeF(small.pointSizeF() * kSmallest);
   if (two) {
     paintFitted(painter, QRectF(kMark_px, y + kRow_px - 4, room, kSecond_px),
-                Qt::AlignVCenter | Qt::AlignLeft, fitText(row.detail, {small, smallest}, room, 1));
+                Qt::AlignVCenter | Qt::AlignLeft,
+                fitText(row.detail, {small, condensed(small, kNarrowest_pct)}, room, 1));
   } else {
     painter.setFont(small);
     painter.drawText(QRect(kMark_px, y, room, kRow_px), Qt::AlignVCenter | Qt::AlignRight,

@@ -151,6 +151,21 @@ void JogPanel::setLocked(bool locked) {
   for (JogPad* pad : {drive_, turn_, arm_, up_}) pad->setEnabled(!locked);
 }
 
+void JogPanel::listenIn(QWidget& other) {
+  other.setFocusPolicy(Qt::ClickFocus);
+  other.installEventFilter(this);
+}
+
+bool JogPanel::eventFilter(QObject* watched, QEvent* event) {
+  const bool press = event->type() == QEvent::KeyPress;
+  if (!press && event->type() != QEvent::KeyRelease) return QWidget::eventFilter(watched, event);
+  auto* key = static_cast<QKeyEvent*>(event);
+  if (!JogKeys::jogs(key->key()) && key->key() != Qt::Key_Shift)
+    return QWidget::eventFilter(watched, event);
+  press ? keyPressEvent(key) : keyReleaseEvent(key);
+  return true;
+}
+
 void JogPanel::keyPressEvent(QKeyEvent* event) {
   keys_.setShift(event->modifiers() & Qt::ShiftModifier);
   if (event->modifiers() & (Qt::ControlModifier | Qt::AltModifier) ||

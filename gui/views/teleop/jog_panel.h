@@ -13,12 +13,14 @@ class QButtonGroup;
 namespace kiln::gui {
 
 /// The sticks for base and arm, by mouse and keyboard. Only sends while HoldToRun allows it;
-/// everything at rest ends the streams. The keyboard jogs while the keyboard focus is in this
-/// panel.
+/// everything at rest ends the streams. The keyboard jogs while the keyboard focus is in this panel
+/// or in another that it listens in.
 class JogPanel : public QWidget {
   Q_OBJECT
  public:
   JogPanel(const Ui& ui, HoldToRun& hold, QWidget* parent = nullptr);
+  /// The jog keys work in `other` too. It has a DeadMan of its own, and outlives this panel.
+  void listenIn(QWidget& other);
   /// Enables or greys out the sticks.
   void setLocked(bool locked);
   /// All sticks and keys to rest, without sending: after the streams were ended elsewhere.
@@ -27,6 +29,7 @@ class JogPanel : public QWidget {
   [[nodiscard]] JogPad& armPad() { return *arm_; }
 
  protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
   void keyReleaseEvent(QKeyEvent* event) override;
   void focusInEvent(QFocusEvent* event) override;

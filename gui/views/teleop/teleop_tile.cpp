@@ -50,6 +50,10 @@ TeleopTile::TeleopTile(const Ui& ui, HoldToRun& hold, QWidget* parent)
   refresh();
 }
 
+TeleopTile::~TeleopTile() {
+  if (hold_.holding()) hold_.releaseAll(tr("the controls are gone"));
+}
+
 QWidget* TeleopTile::makeSide() {
   auto* side = new QWidget;
   auto* column = new QVBoxLayout(side);

@@ -17,6 +17,7 @@ class TeleopTile : public Tile {
   /// @param hold  the station's one HoldToRun, shared with the macro and pump tile; outlives this
   /// tile.
   TeleopTile(const Ui& ui, HoldToRun& hold, QWidget* parent = nullptr);
+  ~TeleopTile() override;
   [[nodiscard]] JogPanel& panel() { return *panel_; }
   /// Why the sticks do nothing; empty when they are live.
   [[nodiscard]] QString lockReason() const;

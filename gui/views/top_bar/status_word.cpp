@@ -14,6 +14,7 @@ namespace kiln::gui {
 namespace {
 constexpr double kGap_px = 12.0;
 constexpr int kNarrow_px = 520;  // a narrower block keeps its room for the reason
+constexpr int kNameless_px = 400;
 QString fromView(std::string_view text) {
   return QString::fromUtf8(text.data(), static_cast<int>(text.size()));
 }
@@ -68,6 +69,7 @@ QColor StatusBlock::wordColor() const {
 }
 
 double StatusBlock::paintName(QPainter& painter) {
+  if (width() < kNameless_px) return 4;
   const Palette& p = ui_.theme.colors();
   QFont brand = ui_.theme.font(TextRole::Value);
   brand.setWeight(QFont::Bold);

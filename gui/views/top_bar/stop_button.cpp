@@ -126,10 +126,9 @@ void StopNote::paintEvent(QPaintEvent*) {
   painter.fillRect(rect(), p.caution_fill);
   painter.fillRect(QRect(width() - 4, 0, 4, height()), p.caution);
   painter.setPen(p.text);
-  QFont small = ui_.theme.font(TextRole::Small), smaller = small;
-  smaller.setPointSizeF(small.pointSizeF() * 0.92);
+  const QFont small = ui_.theme.font(TextRole::Small);
   paintFitted(painter, QRectF(rect()).adjusted(7, 0, -9, 0), Qt::AlignLeft | Qt::AlignVCenter,
-              fitText(text(), {small, smaller}, width() - 16, 2));
+              fitText(text(), {small, condensed(small, 92)}, width() - 16, 2));
 }
 
 }  // namespace kiln::gui

@@ -15,8 +15,8 @@ namespace kiln::gui {
 
 namespace {
 constexpr int kHeight_px = 48;
-constexpr int kLeast_px = 1264;
-constexpr int kRoomForAll_px = 1500;
+constexpr int kLeast_px = 936;
+constexpr int kRoomForMost_px = 1264, kRoomForAll_px = 1500;
 constexpr double kBatteryEmpty_v = 24.0;
 constexpr double kBatteryLow_v = 26.0;
 constexpr double kBatteryFull_v = 29.6;
@@ -183,8 +183,11 @@ void TopBar::refreshLink() {
 
 void TopBar::arrange() {
   const bool all = width() >= kRoomForAll_px;
+  const bool most = width() >= kRoomForMost_px;
   age_->setVisible(all);
-  for (std::size_t i = 1; i < mission_.size(); ++i) mission_[i].view->setVisible(all);
+  for (Figure* figure : {link_, battery_}) figure->setVisible(most);
+  for (std::size_t i = 0; i < mission_.size(); ++i)
+    mission_[i].view->setVisible(i == 0 ? most : all);
   // Over figures that nobody knows while it is there, and never over the key.
   stop_note_->move(stop_->x() - stop_note_->width() - 2, stop_->y());
   stop_note_->raise();

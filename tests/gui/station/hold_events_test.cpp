@@ -1,0 +1,236 @@
+// Random sequences of real pointer events against the whole window under a window manager: what is
+// held on the robot is what a hand holds on the screen, and nothing else.
+#include <QProcess>
+#include <QStandardPaths>
+#include <QTest>
+#include <cstdlib>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "gui/app/main_window.h"
+#include "gui/app/tile_layout.h"
+#include "gui/panels/fire/pump_panel.h"
+#include "gui/views/macros/macros_tile.h"
+#include "gui/views/teleop/teleop_tile.h"
+#include "robot/safety/dead_man.h"
+#include "tests/gui/support/direct_link.h"
+#include "tests/gui/support/x_pointer.h"
+
+namespace kiln::gui {
+namespace {
+
+constexpr int kSettle_ms = 30, kAnswer_ms = 600;
+
+/// Whether a press on one control is alive, told from the events that reach it alone.
+class Press : public QObject {
+ public:
+  explicit Press(QWidget& control) : control_(control) { control.installEventFilter(this); }
+  ~Press() override { control_.removeEventFilter(this); }
+  [[nodiscard]] bool alive() {
+    alive_ = alive_ && control_.isVisible() && placeOf(control_) == place_;
+    return alive_;
+  }
+  void end() { alive_ = false; }
+
+ protected:
+  bool eventFilter(QObject*, QEvent* event) override {
+    if (event->type() == QEvent::MouseButtonPress || event->type() == QEvent::MouseButtonDblClick) {
+      alive_ = control_.isEnabled();
+      place_ = placeOf(control_);
+    }
+    if (event->type() == QEvent::EnabledChange && !control_.isEnabled()) alive_ = false;
+    return false;
+  }
+
+ private:
+  [[nodiscard]] static QRect placeOf(const QWidget& control) {
+    return {control.mapTo(control.window(), QPoint()), control.size()};
+  }
+  QWidget& control_;
+  QRect place_;
+  bool alive_ = false;
+};
+
+class HoldEventsTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    if (QStandardPaths::findExecutable(QStringLiteral("openbox")).isEmpty()) return;
+    manager = std::make_unique<QProcess>();
+    manager->start(QStringLiteral("openbox"), QStringList());
+  }
+  static void TearDownTestSuite() {
+    if (!manager) return;
+    manager->kill();
+    manager->waitForFinished();
+    manager = nullptr;
+  }
+  void SetUp() override {
+    if (!manager) GTEST_SKIP() << "needs a window manager: openbox";
+    ASSERT_TRUE(QTest::qWaitFor([this] { return hand.managed(); }));
+    theme.apply();
+    open();
+    link.open();
+    link.runByTimer();
+    QTest::qWait(300);
+    models.lease.request();
+    QTest::qWait(300);
+    models.commands.send(SetMode{Mode::Teleop}, "teleop");
+    QTest::qWait(500);
+    EXPECT_TRUE(models.mayJog());
+  }
+  ~HoldEventsTest() override { hand.release(); }
+
+  void open() {
+    window = std::make_unique<MainWindow>(Ui{theme, link.clock()}, models,
+                                          MainWindow::Options{RobotGeometry{}, false});
+    window->resize(1400, 930);
+    window->show();
+    EXPECT_TRUE(QTest::qWaitForWindowActive(window.get()));
+  }
+  struct Target {
+    QWidget* widget;
+    kiln::HoldKind kind;
+  };
+  [[nodiscard]] std::vector<Target> targets() {
+    auto* macros = window->findChild<MacrosTile*>();
+    auto* teleop = window->findChild<TeleopTile*>();
+    std::vector<Target> out;
+    if (macros->isVisible()) {
+      out.push_back({&window->findChild<PumpPanel*>()->pump(), kiln::HoldKind::Actuator});
+      for (MacroRow* row : macros->rows())
+        if (row->macro().start_condition.empty()) out.push_back({row, kiln::HoldKind::Macro});
+    }
+    if (teleop->isVisible()) {
+      out.push_back({&teleop->panel().drivePad(), kiln::HoldKind::BaseJog});
+      out.push_back({&teleop->panel().armPad(), kiln::HoldKind::ArmJog});
+    }
+    return out;
+  }
+  [[nodiscard]] bool anyHeld() {
+    for (const auto kind : {kiln::HoldKind::BaseJog, kiln::HoldKind::ArmJog,
+                            kiln::HoldKind::Actuator, kiln::HoldKind::Macro})
+      if (link.robot().held(kind)) return true;
+    return false;
+  }
+  void moveTo(const QPoint& global) { hand.moveTo(global.x(), global.y()); }
+  /// What may move under a pressed pointer.
+  void disturb(int what) {
+    if (what == 0)
+      window->resize(window->width() + (window->width() > 1390 ? -14 : 14), window->height());
+    if (what == 1) window->resize(window->width(), window->height() > 895 ? 860 : 930);
+    if (what == 2) window->showLog(what_log = !what_log);
+    if (what == 3) theme.toggle();
+    if (what == 4) models.alarms.setOwn("test", AlarmLevel::Warning, on = !on, "Test", "nothing");
+  }
+
+  static inline std::unique_ptr<QProcess> manager;
+  XPointer hand;
+  DirectLink link{true};
+  StationModels models{link};
+  Theme theme;
+  std::unique_ptr<MainWindow> window;
+  bool what_log = false, on = false;
+};
+
+TEST_F(HoldEventsTest, HeldOnTheRobotIfAndOnlyIfPressed) {
+  const char* wanted = std::getenv("KILN_HOLDS");
+  const int sequences = wanted ? std::atoi(wanted) : 200;
+  std::mt19937 random(20261129);
+  const auto draw = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+  int held_seen = 0;
+  std::map<std::string, int> trips;
+  for (int sequence = 0; sequence < sequences; ++sequence) {
+    const std::vector<Target> all = targets();
+    ASSERT_FALSE(all.empty());
+    const Target target = all[static_cast<std::size_t>(draw(static_cast<int>(all.size())))];
+    const QPoint inside(target.widget->width() / 4, target.widget->height() / 4);
+    moveTo(target.widget->mapToGlobal(inside));
+    QTest::qWait(kSettle_ms);
+    Press press(*target.widget);
+    std::string said = "press";
+    const auto tripped =
+        QObject::connect(&window->hold(), &HoldToRun::tripped, [&](const QString& why) {
+          press.end();
+          if (!why.isEmpty()) ++trips[why.toStdString()];
+        });
+    hand.press();
+    QTest::qWait(kSettle_ms);
+    // A stick is followed beyond its edge.
+    const bool pad = qobject_cast<JogPad*>(target.widget) != nullptr;
+    for (int step = draw(4); step >= 0; --step) {
+      switch (draw(4)) {
+        case 0:
+          moveTo(target.widget->mapToGlobal(inside + QPoint(draw(5) - 2, draw(5) - 2)));
+          said += ", move inside";
+          break;
+        case 1:
+          moveTo(target.widget->mapToGlobal(QPoint(-40, inside.y())));
+          if (!pad) press.end();
+          said += ", move away";
+          break;
+        default: {
+          const int what = draw(5);
+          disturb(what);
+          said += ", disturb " + std::to_string(what);
+          break;
+        }
+      }
+      QTest::qWait(kSettle_ms);
+      (void)press.alive();
+    }
+    const auto agreed = [&] { return link.robot().held(target.kind) == press.alive(); };
+    EXPECT_TRUE(QTest::qWaitFor(agreed, kAnswer_ms))
+        << "sequence " << sequence << " on kind " << static_cast<int>(target.kind) << ": " << said
+        << (press.alive() ? ": pressed" : ": not pressed");
+    held_seen += press.alive() ? 1 : 0;
+    hand.release();
+    EXPECT_TRUE(QTest::qWaitFor([&] { return !anyHeld(); }, kAnswer_ms))
+        << "sequence " << sequence << " after its release: " << said;
+    QObject::disconnect(tripped);
+    if (HasFailure()) return;
+  }
+  for (const auto& [why, times] : trips)
+    EXPECT_LT(times, sequences / 5) << "let go by the window itself: " << why;
+  EXPECT_GT(held_seen, sequences / 4) << "most presses were in vain: nothing was tried";
+}
+
+TEST_F(HoldEventsTest, JogKeysDriveWhileTheMacrosAreInFront) {
+  window->resize(1400, 800);
+  window->tileLayout().showMacros(true);
+  MacrosTile* macros = window->macrosTile();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return macros->isVisible() && macros->height() > 100; }));
+  moveTo(macros->mapToGlobal({60, 12}));
+  hand.press();
+  hand.release();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return macros->hasFocus(); }, kAnswer_ms));
+  hand.key('w', true);
+  EXPECT_TRUE(
+      QTest::qWaitFor([&] { return link.robot().held(kiln::HoldKind::BaseJog); }, kAnswer_ms));
+  HoldButton& pump = window->findChild<PumpPanel*>()->pump();
+  moveTo(pump.mapToGlobal(pump.rect().center()));
+  hand.press();  // water while it drives
+  EXPECT_TRUE(
+      QTest::qWaitFor([&] { return link.robot().held(kiln::HoldKind::Actuator); }, kAnswer_ms));
+  EXPECT_TRUE(link.robot().held(kiln::HoldKind::BaseJog));
+  hand.release();
+  hand.key('w', false);
+  EXPECT_TRUE(QTest::qWaitFor([&] { return !anyHeld(); }, kAnswer_ms));
+}
+
+TEST_F(HoldEventsTest, AWindowThatGoesWhilePressedLetsGo) {
+  for (std::size_t i = 0; i < targets().size(); ++i) {
+    const Target target = targets()[i];
+    moveTo(target.widget->mapToGlobal({target.widget->width() / 4, target.widget->height() / 4}));
+    QTest::qWait(kSettle_ms);
+    hand.press();
+    EXPECT_TRUE(QTest::qWaitFor([&] { return link.robot().held(target.kind); }, kAnswer_ms));
+    window = nullptr;
+    EXPECT_TRUE(QTest::qWaitFor([&] { return !anyHeld(); }, kAnswer_ms));
+    hand.release();
+    open();
+  }
+}
+
+}  // namespace
+}  // namespace kiln::gui
