@@ -13,6 +13,7 @@ class OperatorRig::People final : public Arena {
     asked = true;
     return {};
   }
+  Result<void> startClock() override { return {}; }
   bool asked = false;
 };
 
