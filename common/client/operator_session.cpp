@@ -142,7 +142,6 @@ OperatorSession::~OperatorSession() {
 }
 
 // --- link thread: what comes in
-// --------------------------------------------------------------------------------------
 
 void OperatorSession::Impl::onMessage(std::string_view bytes) {
   auto message = wire::decodeToStation(bytes);
@@ -215,7 +214,6 @@ void OperatorSession::Impl::setLease(LeaseView view, std::unique_lock<std::mutex
 }
 
 // --- link thread: what goes out
-// --------------------------------------------------------------------------------------
 
 void OperatorSession::Impl::onTick() {
   const auto now = monotonicNow();
@@ -276,7 +274,6 @@ void OperatorSession::Impl::finishUpdates(std::unique_lock<std::mutex>& lock) {
 }
 
 // --- any thread
-// ------------------------------------------------------------------------------------------------------
 
 std::uint64_t OperatorSession::send(CommandBody body) {
   const auto now = monotonicNow();

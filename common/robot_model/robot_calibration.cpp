@@ -5,11 +5,11 @@
 #include <tuple>
 
 #include "common/config/required_keys.h"
+#include "common/core/units.h"
 
 namespace kiln {
 namespace {
 
-constexpr double kDeg = M_PI / 180.0;
 constexpr double kFarthest_m = 0.05, kFarthest_rad = 5.0 * kDeg;
 
 Result<void> near(const char* what, const PoseConfig& found, const PoseConfig& nominal) {

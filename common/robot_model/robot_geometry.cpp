@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "common/core/units.h"
+
 namespace kiln {
 
 void PoseConfig::visit(ConfigArchive& a) {
@@ -12,7 +14,7 @@ void PoseConfig::visit(ConfigArchive& a) {
 
 Eigen::Isometry3d PoseConfig::pose() const {
   return makePose({xyz_m[0], xyz_m[1], xyz_m[2]},
-                  Eigen::Vector3d(rpy_deg[0], rpy_deg[1], rpy_deg[2]) * (M_PI / 180.0));
+                  Eigen::Vector3d(rpy_deg[0], rpy_deg[1], rpy_deg[2]) * kDeg);
 }
 
 void BoxConfig::visit(ConfigArchive& a) {
@@ -59,7 +61,7 @@ void RobotGeometry::visit(ConfigArchive& a) {
 
 Vector6d RobotGeometry::radians(const std::vector<double>& q_deg) {
   Vector6d q;
-  for (int i = 0; i < 6; ++i) q[i] = q_deg[static_cast<std::size_t>(i)] * M_PI / 180.0;
+  for (int i = 0; i < 6; ++i) q[i] = q_deg[static_cast<std::size_t>(i)] * kDeg;
   return q;
 }
 

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "common/core/units.h"
+
 namespace kiln {
 
 UrKinematics UrKinematics::ur10e() {
@@ -9,7 +11,6 @@ UrKinematics UrKinematics::ur10e() {
   k.a = {0.0, -0.6127, -0.57155, 0.0, 0.0, 0.0};
   k.d = {0.1807, 0.0, 0.0, 0.17415, 0.11985, 0.11655};
   k.alpha = {M_PI / 2, 0.0, 0.0, M_PI / 2, -M_PI / 2, 0.0};
-  constexpr double kDeg = M_PI / 180.0;
   k.velocity_limit << 120 * kDeg, 120 * kDeg, 180 * kDeg, 180 * kDeg, 180 * kDeg, 180 * kDeg;
   k.position_limit << 2 * M_PI, 2 * M_PI, M_PI, 2 * M_PI, 2 * M_PI, 2 * M_PI;
   return k;

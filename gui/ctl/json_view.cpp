@@ -2,11 +2,12 @@
 
 #include <cmath>
 
+#include "common/core/units.h"
+
 namespace kiln::ctl {
 namespace {
 
 using nlohmann::json;
-constexpr double kDegrees = 180.0 / M_PI;
 
 const char* alarmLevel(AlarmLevel level) {
   switch (level) {
@@ -159,7 +160,7 @@ json toJson(const RobotStatus& status) {
                   {"pose",
                    {{"x_m", status.X_map_base.x_m},
                     {"y_m", status.X_map_base.y_m},
-                    {"yaw_deg", status.X_map_base.yaw_rad * kDegrees},
+                    {"yaw_deg", status.X_map_base.yaw_rad / kDeg},
                     {"age_s", status.pose_age_s}}},
                   {"twist", {status.twist.vx_mps, status.twist.vy_mps, status.twist.wz_radps}},
                   {"arm",
@@ -193,8 +194,7 @@ std::string oneLine(const RobotStatus& status, const std::optional<FsmStatus>& f
                      fsm ? fmt::format("{} (step {})", fsm->state, fsm->step) : "no mission",
                      status.lease.holder_name.empty() ? "free" : status.lease.holder_name,
                      status.stop.latched ? fmt::format("STOP by {}  ", status.stop.source) : "",
-                     status.X_map_base.x_m, status.X_map_base.y_m,
-                     status.X_map_base.yaw_rad * kDegrees,
+                     status.X_map_base.x_m, status.X_map_base.y_m, status.X_map_base.yaw_rad / kDeg,
                      status.reason.empty() ? "" : "  " + status.reason);
 }
 
@@ -207,9 +207,9 @@ json toJson(const LocalizationStatus& status) {
            {"x_m", pose.x_m},
            {"y_m", pose.y_m},
            {"z_m", status.X_map_base.translation().z()},
-           {"yaw_deg", pose.yaw_rad * kDegrees},
+           {"yaw_deg", pose.yaw_rad / kDeg},
            {"sigma_m", status.sigma_m},
-           {"sigma_yaw_deg", status.sigma_yaw_rad * kDegrees},
+           {"sigma_yaw_deg", status.sigma_yaw_rad / kDeg},
            {"match_age_s", status.match_age_s},
            {"inlier_fraction", status.inlier_fraction},
            {"observable_directions", status.observable_directions},
@@ -223,8 +223,8 @@ json toJson(const LocalizationStatus& status) {
 std::string oneLine(const LocalizationStatus& status) {
   const Pose2 pose = projectToGround(status.X_map_base);
   return fmt::format("{}  {:.3f} m {:.2f} deg  pose {:.2f} {:.2f} m {:.1f} deg  {} {}  {}{}",
-                     toString(status.health), status.sigma_m, status.sigma_yaw_rad * kDegrees,
-                     pose.x_m, pose.y_m, pose.yaw_rad * kDegrees, status.method, status.submap,
+                     toString(status.health), status.sigma_m, status.sigma_yaw_rad / kDeg, pose.x_m,
+                     pose.y_m, pose.yaw_rad / kDeg, status.method, status.submap,
                      status.match_age_s < 0.0
                          ? "never matched"
                          : fmt::format("matched {:.1f} s ago", status.match_age_s),

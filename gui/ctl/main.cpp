@@ -10,6 +10,7 @@
 #include "common/config/command_line.h"
 #include "common/config/config_archive.h"
 #include "common/core/log.h"
+#include "common/core/units.h"
 #include "gui/ctl/commands.h"
 #include "gui/ctl/signals.h"
 
@@ -116,7 +117,7 @@ void addPlaces(CLI::App& app, Request& request) {
   pose->callback([&request] {
     request.run = [&request](Console& console) {
       const auto& [x, y, yaw_deg] = request.base;
-      return kiln::ctl::commandWithControl(console, kiln::SetPose{{x, y, yaw_deg * M_PI / 180.0}});
+      return kiln::ctl::commandWithControl(console, kiln::SetPose{{x, y, yaw_deg * kDeg}});
     };
   });
   app.add_subcommand("mission", "what the mission brings: figures, commands, actuators")

@@ -3,6 +3,8 @@
 #include <QStringList>
 #include <cmath>
 
+#include "common/core/units.h"
+
 namespace kiln::gui {
 
 QString lengthText(double metres) {
@@ -14,7 +16,7 @@ QString lengthText(double metres) {
 }
 
 QString angleText(double radians) {
-  const double degrees = radians * 180.0 / M_PI;
+  const double degrees = radians / kDeg;
   return QStringLiteral("%1°").arg(degrees, 0, 'f', std::abs(degrees) < 9.95 ? 1 : 0);
 }
 

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "common/core/units.h"
+
 namespace kiln::gui {
 
 namespace {
@@ -72,7 +74,7 @@ void PosePlacer::confirm() {
   nonce_ = models_.commands.send(SetPose{pose_}, tr("set pose to %1, %2 m, %3°")
                                                      .arg(pose_.x_m, 0, 'f', 2)
                                                      .arg(pose_.y_m, 0, 'f', 2)
-                                                     .arg(pose_.yaw_rad * 180.0 / M_PI, 0, 'f', 0));
+                                                     .arg(pose_.yaw_rad / kDeg, 0, 'f', 0));
   if (const TrackedCommand* command = models_.commands.find(nonce_)) onProgress(*command);
 }
 

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/core/units.h"
 #include "robot/app/robot_settings.h"
 
 namespace kiln {
 namespace {
 
-constexpr double kDeg = M_PI / 180.0;
 constexpr double kPromisedStop_mps2 = 1.8;       // resources/docs/safety.md
 constexpr double kPromisedSetpointAge_s = 0.25;  // the same
 constexpr double kPumpWatchdog_s = 0.2;

@@ -1,6 +1,7 @@
 #include "robot/app/mission_control.h"
 
 #include "common/core/log.h"
+#include "common/core/units.h"
 #include "robot/safety/gate_rules.h"
 
 namespace kiln {
@@ -110,7 +111,7 @@ CommandAck MissionControl::executeDiscrete(const Command& command, Stamp now) {
     parts_.set_pose(pose->X_map_base);
     logger("localization")
         ->warn("{} set the pose: x {:.2f} m, y {:.2f} m, {:.0f} deg", command.operator_name,
-               pose->X_map_base.x_m, pose->X_map_base.y_m, pose->X_map_base.yaw_rad * 180.0 / M_PI);
+               pose->X_map_base.x_m, pose->X_map_base.y_m, pose->X_map_base.yaw_rad / kDeg);
     return done(command);
   }
   if (const auto* alarm = std::get_if<AcknowledgeAlarm>(&body)) {

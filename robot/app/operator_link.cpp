@@ -93,7 +93,6 @@ OperatorLink::OperatorLink(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) 
 OperatorLink::~OperatorLink() = default;
 
 // --- link thread
-// -----------------------------------------------------------------------------------------------------
 
 void OperatorLink::Impl::onMessage(PeerId from, std::string_view bytes) {
   auto message = wire::decodeToRobot(bytes);
@@ -203,7 +202,6 @@ void OperatorLink::Impl::onTick() {
 }
 
 // --- any thread
-// ------------------------------------------------------------------------------------------------------
 
 std::vector<ReceivedCommand> OperatorLink::takeCommands() {
   std::vector<ReceivedCommand> commands;

@@ -58,7 +58,6 @@ class OperatorLink {
   OperatorLink& operator=(const OperatorLink&) = delete;
 
   // --- commands: drained by the mission tick
-  // ---------------------------------------------------------------------
   [[nodiscard]] std::vector<ReceivedCommand> takeCommands();
   /// Goes to ack.client_id, if that client is still connected.
   void acknowledge(const CommandAck& ack);
@@ -68,7 +67,6 @@ class OperatorLink {
   void setTap(LinkTap tap);
 
   // --- telemetry
-  // -------------------------------------------------------------------------------------------------
   void publish(RobotStatus status);
   void publish(FsmInfo info);      ///< latched
   void publish(MissionInfo info);  ///< latched

@@ -121,7 +121,6 @@ void RunRecorder::transforms(std::vector<foxglove::FrameTransform> tree,
 }
 
 // --- recorder's thread
-// -----------------------------------------------------------------------------------------------
 
 void RunRecorder::loop(std::stop_token stop) {
   pthread_setname_np(pthread_self(), "recorder");

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "common/core/mutex.h"
+#include "common/core/units.h"
 #include "robot/control/arm_setpoint_check.h"
 #include "robot/control/contact_monitor.h"
 #include "robot/control/joint_tracker.h"
@@ -15,7 +16,6 @@
 namespace kiln {
 namespace {
 
-constexpr double kDeg = M_PI / 180.0;
 constexpr double kMaxTick = 0.05;  // s; a longer gap is a slipped tick, not a longer step
 constexpr double kExtrapolate =
     0.06;  // s; three periods of 50 Hz setpoints, then the reference stands

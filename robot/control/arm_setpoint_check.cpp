@@ -4,9 +4,10 @@
 
 #include <fmt/format.h>
 
+#include "common/core/units.h"
+
 namespace kiln {
 namespace {
-constexpr double kToDeg = 180.0 / M_PI;
 constexpr double kRounding = 1e-6;
 }  // namespace
 
@@ -22,16 +23,16 @@ std::string refusal(const ArmSetpoint& setpoint, const Vector6d& q_command,
     const bool inwards = std::abs(setpoint.q[i]) <= std::abs(q_command[i]) + kRounding;
     if (std::abs(setpoint.q[i]) > limits.position[i] && !inwards) {
       return fmt::format("joint {} target {:.1f} deg is outside +-{:.1f} deg", i + 1,
-                         setpoint.q[i] * kToDeg, limits.position[i] * kToDeg);
+                         setpoint.q[i] / kDeg, limits.position[i] / kDeg);
     }
     if (std::abs(setpoint.qd[i]) > limits.speed[i] * (1.0 + kRounding)) {
       return fmt::format("joint {} speed {:.0f} deg/s is above {:.0f} deg/s", i + 1,
-                         setpoint.qd[i] * kToDeg, limits.speed[i] * kToDeg);
+                         setpoint.qd[i] / kDeg, limits.speed[i] / kDeg);
     }
     const double lead = std::abs(setpoint.q[i] - q_command[i]);
     if (lead > limits.speed[i] * limits.max_lead_s) {
       return fmt::format("joint {} target jumps by {:.1f} deg; plan a path to it", i + 1,
-                         lead * kToDeg);
+                         lead / kDeg);
     }
   }
   return "";

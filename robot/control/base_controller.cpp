@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "common/core/mutex.h"
+#include "common/core/units.h"
 #include "robot/control/jerk_limiter.h"
 #include "robot/control/setpoint_slot.h"
 #include "robot/control/swerve_kinematics.h"
@@ -15,7 +16,6 @@
 namespace kiln {
 namespace {
 
-constexpr double kDeg = M_PI / 180.0;
 constexpr double kMaxTick = 0.05;       // s; a longer gap is a slipped tick, not a longer step
 constexpr double kMovingSpeed = 0.02;   // m/s; slower, the target decides where the wheels point
 constexpr double kRestSpeed = 0.01;     // m/s, measured

@@ -4,10 +4,11 @@
 
 #include <Eigen/Dense>
 
+#include "common/core/units.h"
+
 namespace kiln {
 namespace {
 
-constexpr double kDeg = M_PI / 180.0;
 // Beyond this angle a solution costs extra, so that wheels are not parked at the end of their
 // range, where the next small change of direction would need half a turn.
 constexpr double kComfortableSteer = 100.0 * kDeg;

@@ -2,6 +2,7 @@
 
 #include "common/core/atomic_file.h"
 #include "common/core/clock.h"
+#include "common/core/units.h"
 #include "robot/evaluation/evaluation.h"
 #include "robot/evaluation/yard_calibration.h"
 
@@ -9,8 +10,6 @@ namespace kiln {
 namespace {
 
 using nlohmann::json;
-
-constexpr double kDeg = M_PI / 180.0;
 
 Eigen::Isometry3d poseFrom(const json& j) {
   const auto& p = j.at("xyz_m");

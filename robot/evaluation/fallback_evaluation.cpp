@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/config/resources.h"
+#include "common/core/units.h"
 #include "common/geom/camera_model.h"
 #include "common/robot_model/robot_geometry.h"
 #include "common/wire/fire/codec/fire_codec.h"
@@ -29,7 +30,7 @@ constexpr double kGravity_mps2 = 9.81;
 /// the operator's aim mark, from the nozzle's offset and the sag of the jet at the opening.
 Eigen::Vector2d aimMark(const RobotGeometry& robot, double plate_ahead_of_flange_m,
                         double recess_m) {
-  const CameraModel camera = CameraModel::fromHorizontalFov(160, 120, 57.0 * M_PI / 180.0);
+  const CameraModel camera = CameraModel::fromHorizontalFov(160, 120, 57.0 * kDeg);
   const Eigen::Isometry3d X_thermal_nozzle =
       robot.X_flange_thermal.pose().inverse() * robot.X_flange_nozzle.pose();
   const double nozzle_to_opening =

@@ -8,6 +8,8 @@
 #include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
 
+#include "common/core/units.h"
+
 namespace kiln {
 namespace {
 
@@ -15,7 +17,7 @@ using nlohmann::json;
 
 constexpr double kMaxRange_m = 1.0;
 constexpr double kGross_m = 0.5;
-constexpr double kMaxAxisAngle_rad = 10.0 * M_PI / 180.0;
+constexpr double kMaxAxisAngle_rad = 10.0 * kDeg;
 
 struct TruthSample {
   double t_s = 0.0;

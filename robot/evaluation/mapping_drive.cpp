@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "common/core/units.h"
 #include "robot/evaluation/pose_accuracy.h"
 
 namespace kiln {
@@ -46,7 +47,7 @@ KeyframeErrors keyframeErrors(const BuiltMap& built, const BaseTrace& truth) {
     if (!real) continue;
     const Pose2 mapped = projectToGround(built.poses[i]);
     out.position_m.push_back(apart(mapped, *real));
-    out.yaw_deg.push_back(std::abs(wrapAngle(mapped.yaw_rad - real->yaw_rad)) * 180.0 / M_PI);
+    out.yaw_deg.push_back(std::abs(wrapAngle(mapped.yaw_rad - real->yaw_rad)) / kDeg);
     const bool again = apart(mapped, projectToGround(built.poses.front())) < kReturned_m;
     if (again && i > built.poses.size() / 2) out.return_m.push_back(out.position_m.back());
   }

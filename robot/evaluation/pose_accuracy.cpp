@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "common/core/units.h"
 #include "common/geom/pose.h"
 #include "robot/evaluation/base_trace.h"
 
@@ -15,7 +16,6 @@ using nlohmann::json;
 
 constexpr double kNear_m = 0.5;
 constexpr double kRest_m = 0.002;  ///< between two samples
-constexpr double kDeg = M_PI / 180.0;
 
 Pose2 poseAt(const json& row, std::size_t first) {
   return {row[first].get<double>(), row[first + 1].get<double>(), row[first + 2].get<double>()};

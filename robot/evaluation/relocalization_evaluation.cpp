@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/config/resources.h"
+#include "common/core/units.h"
 #include "common/robot_model/robot_calibration.h"
 #include "robot/app/robot_settings.h"
 #include "robot/evaluation/base_trace.h"
@@ -19,7 +20,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kDeg = M_PI / 180.0;
 constexpr double kFarthest_m = 1.0, kFarthest_deg = 20.0;
 constexpr double kFound_m = 0.10, kFound_deg = 2.0;
 constexpr int kTrialsASeed = 50;

@@ -6,6 +6,7 @@
 
 #include "common/config/resources.h"
 #include "common/core/atomic_file.h"
+#include "common/core/units.h"
 #include "common/robot_model/robot_geometry.h"
 #include "robot/evaluation/evaluation.h"
 #include "robot/evaluation/lockstep_world.h"
@@ -74,7 +75,7 @@ Result<EvaluationResult> calibrateSpray(const SweepOptions& options) {
                      calibration.distance_m.size());
   }
   calibration.exit_speed_mps = weighted / count;
-  calibration.spread_deg = spread_sum / count * 180.0 / M_PI;
+  calibration.spread_deg = spread_sum / count / kDeg;
   if (auto valid = calibration.validate(); !valid) return tl::make_unexpected(valid.error());
 
   std::string path = options.out;

@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "common/core/units.h"
+
 namespace kiln {
 namespace {
 
@@ -16,7 +18,6 @@ using nlohmann::json;
 constexpr double kScale = 50.0;  ///< pixels a metre
 constexpr double kMargin_m = 0.6;
 constexpr double kArrow_m = 0.35;
-constexpr double kDeg = M_PI / 180.0;
 constexpr std::array kDriven = {"#1f5fa8", "#b8860b", "#7b3fa0", "#0f7f7f", "#a04020"};
 
 /// X of map to the right, Y up.

@@ -5,10 +5,11 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "common/core/units.h"
+
 namespace kiln {
 namespace {
 
-constexpr double kDeg = M_PI / 180.0;
 constexpr double kUnobservable_m = 10.0;  // 1-sigma reported along a direction that nothing holds
 constexpr std::size_t kSearchPoints = 250;
 constexpr std::size_t kRefinedCandidates = 6;

@@ -4,11 +4,10 @@
 #include <cmath>
 
 #include "common/core/log.h"
+#include "common/core/units.h"
 
 namespace kiln {
 namespace {
-
-constexpr double kDeg = M_PI / 180.0;
 
 bool agree(const Pose2& a, const Pose2& b, double within_m, double within_deg) {
   return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m) <= within_m &&

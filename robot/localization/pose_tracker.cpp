@@ -6,10 +6,10 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
+#include "common/core/units.h"
+
 namespace kiln {
 namespace {
-
-constexpr double kDeg = M_PI / 180.0;
 
 double squared(double v) { return v * v; }
 

@@ -7,12 +7,12 @@
 #include <Eigen/Eigenvalues>
 
 #include "common/core/check.h"
+#include "common/core/units.h"
 #include "common/geom/pose.h"
 
 namespace kiln {
 namespace {
 
-constexpr double kDeg = M_PI / 180.0;
 constexpr double kUnobservable_m = 10.0;  // 1-sigma reported along a direction that nothing holds
 constexpr double kConverged_m = 3e-4;
 constexpr float kOutlier = 0.02F;     // likelihood of the outlier class: that of 2.8 sigma

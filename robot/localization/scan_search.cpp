@@ -2,13 +2,13 @@
 #include <array>
 #include <cmath>
 
+#include "common/core/units.h"
 #include "common/geom/pose.h"
 #include "robot/localization/scan_matcher.h"
 
 namespace kiln {
 namespace {
 
-constexpr double kDeg = M_PI / 180.0;
 constexpr double kSamePlace_m = 0.15, kSamePlace_rad = 2.5 * kDeg;
 constexpr double kOtherPlace_m = 0.30, kOtherPlace_rad = 5.0 * kDeg;
 

@@ -5,10 +5,10 @@
 
 #include <fmt/format.h>
 
+#include "common/core/units.h"
+
 namespace kiln {
 namespace {
-
-constexpr double kDeg = M_PI / 180.0;
 
 bool isFinite(const Twist2& t) { return std::isfinite(t.vx_mps + t.vy_mps + t.wz_radps); }
 bool isFinite(const Pose2& p) { return std::isfinite(p.x_m + p.y_m + p.yaw_rad); }

@@ -2,11 +2,9 @@
 
 #include <cmath>
 
-namespace kiln {
-namespace {
-constexpr double kDeg = M_PI / 180.0;
-}
+#include "common/core/units.h"
 
+namespace kiln {
 void GroundPoseConfig::visit(ConfigArchive& a) {
   a.field("xy_m", xy_m, "m", -1e3, 1e3, "position on the ground");
   a.field("yaw_deg", yaw_deg, "deg", -360, 360, "heading");

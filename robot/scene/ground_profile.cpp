@@ -5,11 +5,9 @@
 
 #include <Eigen/Dense>
 
-namespace kiln {
-namespace {
-constexpr double kDeg = M_PI / 180.0;
-}
+#include "common/core/units.h"
 
+namespace kiln {
 void ApproachConfig::visit(ConfigArchive& a) {
   a.field("foot_x_m", foot_x_m, "m", -1e3, 1e3, "the ramp begins here");
   a.field("top_x_m", top_x_m, "m", -1e3, 1e3,

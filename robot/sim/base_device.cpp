@@ -5,9 +5,10 @@
 
 #include <fmt/format.h>
 
+#include "common/core/units.h"
+
 namespace kiln::sim {
 namespace {
-constexpr double kDeg = M_PI / 180.0;
 
 /// Eight lithium cells at rest: nominal 29.6 V, 33.2 V full.
 double openCircuitVoltage(double charge) {

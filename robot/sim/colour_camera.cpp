@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "common/core/units.h"
 #include "common/geom/frames.h"
 #include "robot/sim/random.h"
 #include "robot/sim/ray_scene.h"
@@ -36,10 +37,10 @@ struct ColourCamera::Impl {
         scene(config, arena, robot, true),
         columns(config.camera.width / kBlock + 1),
         rows(config.camera.height / kBlock + 1),
-        focal(static_cast<float>(
-            CameraModel::fromHorizontalFov(config.camera.width, config.camera.height,
-                                           config.camera.hfov_deg * M_PI / 180.0)
-                .fx)) {
+        focal(static_cast<float>(CameraModel::fromHorizontalFov(config.camera.width,
+                                                                config.camera.height,
+                                                                config.camera.hfov_deg * kDeg)
+                                     .fx)) {
     for (const TrueFirePlace& place : arena.fire_places) {
       fire_boxes.emplace_back(
           (place.X_map_front * Eigen::Vector3d(-0.5 * place.box_m, 0, 0)).cast<float>());

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/core/units.h"
 #include "robot/sim/fault_catalog.h"
 
 namespace kiln::sim {
 namespace {
 
-constexpr double kDeg = M_PI / 180.0;
 constexpr double kStep_mps = 1.1;  // of somebody who steps into the way
 constexpr double kAside_m = 1.8;   // where they come from
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/core/units.h"
 #include "common/geom/frames.h"
 
 namespace kiln::sim {
@@ -10,7 +11,6 @@ namespace {
 
 constexpr int kLasers = 16;
 constexpr double kFiring_s = 2.304e-6;  // VLP-16 manual: one laser after the other
-constexpr double kDeg = M_PI / 180.0;
 // Elevation of laser 0..15 in firing order, degrees (VLP-16 manual).
 constexpr std::array<int, kLasers> kElevation = {-15, 1, -13, 3,  -11, 5,  -9, 7,
                                                  -7,  9, -5,  11, -3,  13, -1, 15};

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/core/units.h"
+
 namespace kiln::sim {
 namespace {
 
@@ -22,7 +24,7 @@ ThermalSensor::ThermalSensor(const ThermalConfig& config, const RobotGeometry& r
       robot_(robot),
       X_flange_thermal_(truth.X_flange_thermal),
       wet_(wet),
-      camera_(CameraModel::fromHorizontalFov(kWidth, kHeight, config.hfov_deg * M_PI / 180.0)),
+      camera_(CameraModel::fromHorizontalFov(kWidth, kHeight, config.hfov_deg * kDeg)),
       noise_(seed, "thermal") {
   Random random(seed, "thermal fixed");
   for (int i = 0; i < kWidth * kHeight; ++i)

@@ -3,14 +3,13 @@
 #include <cmath>
 #include <optional>
 
+#include "common/core/units.h"
 #include "robot/sim/fault_catalog.h"
 #include "robot/sim/random.h"
 #include "robot/sim/true_ground.h"
 
 namespace kiln::sim {
 namespace {
-
-constexpr double kDeg = M_PI / 180.0;
 
 Eigen::Vector3d vector3(const std::vector<double>& v) { return {v[0], v[1], v[2]}; }
 

@@ -7,7 +7,6 @@
 namespace kiln::sim {
 namespace {
 
-constexpr double kDeg = M_PI / 180.0;
 constexpr double kWide_m = 200.0;  // as far as any ray goes
 constexpr double kThick_m = 1.0;
 

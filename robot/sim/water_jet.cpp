@@ -2,12 +2,12 @@
 
 #include <cmath>
 
+#include "common/core/units.h"
 #include "robot/sim/ray_scene.h"
 
 namespace kiln::sim {
 namespace {
 constexpr double kGravity = 9.81;
-constexpr double kDeg = M_PI / 180.0;
 constexpr double kLost_m = -1.0;  // z of a drop that the ground should have stopped
 }  // namespace
 

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "common/core/units.h"
 #include "robot/planning/base_path/base_path.h"
 #include "robot/scene/obstacles.h"
 #include "robot/skills/arena_fence.h"
@@ -14,7 +15,6 @@
 namespace kiln {
 namespace {
 
-constexpr double kDeg = M_PI / 180.0;
 constexpr double kLookAhead = 0.5;   // s; where the wheels shall point before the base moves
 constexpr double kRateChange = 3.0;  // 1/s; how fast the reference slows down and picks up
 constexpr double kMaxTick = 0.1;     // s

@@ -7,12 +7,9 @@
 #include <fmt/format.h>
 
 #include "common/core/log.h"
+#include "common/core/units.h"
 
 namespace kiln {
-namespace {
-constexpr double kDeg = M_PI / 180.0;
-}
-
 const Macro* MacroRunner::find(const std::string& name) const {
   const auto found = std::find_if(macros_.begin(), macros_.end(),
                                   [&](const Macro& macro) { return macro.name == name; });

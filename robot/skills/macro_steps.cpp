@@ -5,10 +5,10 @@
 
 #include <fmt/format.h>
 
+#include "common/core/units.h"
+
 namespace kiln {
 namespace {
-
-constexpr double kDeg = M_PI / 180.0;
 
 class JointsStep final : public ArmMacroStep {
  public:

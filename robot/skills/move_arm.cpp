@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "common/core/log.h"
+#include "common/core/units.h"
 #include "robot/planning/arm_motion/joint_trajectory.h"
 #include "robot/planning/arm_motion/ur_inverse.h"
 #include "robot/scene/obstacles.h"
@@ -17,7 +18,6 @@
 namespace kiln {
 namespace {
 
-constexpr double kDeg = M_PI / 180.0;
 constexpr double kAnswerTime = 0.1;  // s; until the control thread has seen the first setpoint
 constexpr double kCarriedOn = 0.06;  // s; the controller follows a setpoint on for so long
 // Part of the guard force: an arm that lags while this much pushes against it may have met

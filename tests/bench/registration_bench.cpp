@@ -13,13 +13,13 @@
 #include <pcl/registration/gicp.h>
 #include <pcl/registration/ndt.h>
 
+#include "common/core/units.h"
 #include "robot/localization/scan_matcher.h"
 #include "tests/unit/robot/localization/synthetic_map.h"
 
 namespace kiln {
 namespace {
 
-constexpr double kDeg = M_PI / 180.0;
 constexpr std::uint32_t kCases = 60;
 const Eigen::Vector3d kSensor = testing::ScanSettings{}.p_base_sensor;
 

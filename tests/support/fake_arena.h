@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "common/core/units.h"
 #include "robot/hal/arena.h"
 #include "robot/scene/arena_map.h"
 #include "robot/skills/surroundings.h"
@@ -69,7 +70,7 @@ class FakeReferee final : public Arena {
 class HotPlate {
  public:
   explicit HotPlate(const FirePlaceConfig& place) {
-    const double facing_rad = place.facing_deg * M_PI / 180.0;
+    const double facing_rad = place.facing_deg * kDeg;
     const Eigen::Vector3d out(std::cos(facing_rad), std::sin(facing_rad), 0.0);
     scene_.X_map_plate.linear().col(0) = Eigen::Vector3d::UnitZ().cross(out);
     scene_.X_map_plate.linear().col(1) = Eigen::Vector3d::UnitZ();

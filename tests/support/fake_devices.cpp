@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/core/units.h"
+
 namespace kiln {
 namespace {
 
-constexpr double kDeg = M_PI / 180.0;
 constexpr double kServoLag = 0.02;     // s
 constexpr double kDriveLag = 0.05;     // s
 constexpr double kServoTimeout = 0.2;  // s

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/core/units.h"
 #include "common/wire/fire/codec/fire_codec.h"
 #include "common/wire/fire/fire_view.h"
 #include "gui/models/localization_model.h"
@@ -12,7 +13,6 @@ namespace kiln::gui {
 
 namespace {
 constexpr double kNothing_m = 1e-4;
-constexpr double kDeg = M_PI / 180.0;
 
 QString withSign(double value, const QString& text) {
   return (value < 0 ? QStringLiteral("−") : QStringLiteral("+")) + text;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/core/units.h"
+
 namespace kiln::gui {
 namespace {
 
@@ -63,7 +65,7 @@ Rgb toRgbKeepingLightness(Lab c) {
 
 Lab chromaticityAt(double t, const std::vector<PerceptualMap::Anchor>& anchors) {
   const auto plane = [](const PerceptualMap::Anchor& k) {
-    const double hue = k.hue_deg * M_PI / 180.0;
+    const double hue = k.hue_deg * kDeg;
     return Lab{0.0, k.chroma * std::cos(hue), k.chroma * std::sin(hue)};
   };
   const auto upper = std::find_if(anchors.begin() + 1, anchors.end() - 1,

@@ -3,6 +3,8 @@
 #include <QHBoxLayout>
 #include <cmath>
 
+#include "common/core/units.h"
+
 namespace kiln::gui {
 
 namespace {
@@ -44,7 +46,7 @@ void PosePanel::refresh() {
   const QString figures = tr("x %1 m, y %2 m, %3°")
                               .arg(pose.x_m, 0, 'f', 2)
                               .arg(pose.y_m, 0, 'f', 2)
-                              .arg(pose.yaw_rad * 180.0 / M_PI, 0, 'f', 0);
+                              .arg(pose.yaw_rad / kDeg, 0, 'f', 0);
   switch (placer_.phase()) {
     case Phase::Idle:
       break;

@@ -14,6 +14,7 @@
 #include <vtkTranslucentPass.h>
 #include <vtkUnsignedCharArray.h>
 
+#include "common/core/units.h"
 #include "gui/views/scene3d/scene_actor.h"
 
 namespace kiln::gui {
@@ -60,7 +61,7 @@ struct SceneRenderer::Impl {
     out.SetPosition(p.data());
     out.SetFocalPoint(camera.target().data());
     out.SetViewUp(up.data());
-    out.SetViewAngle(camera.fieldOfView() * 180.0 / M_PI);
+    out.SetViewAngle(camera.fieldOfView() / kDeg);
     out.SetParallelProjection(camera.parallel());
     out.SetParallelScale(camera.halfHeight());
     renderer->ResetCameraClippingRange();

@@ -4,13 +4,12 @@
 #include <utility>
 
 #include "common/core/log.h"
+#include "common/core/units.h"
 #include "robot/evaluation/calibration/camera_part.h"
 #include "robot/evaluation/calibration/lidar_part.h"
 
 namespace kiln {
 namespace {
-
-constexpr double kDeg = M_PI / 180.0;
 
 /// @param first_axis  of the part, from which on its errors are seen: 1 for a nozzle, of which
 /// neither the turn about the jet nor the place along it matters.

@@ -1,11 +1,10 @@
 #include "robot/evaluation/calibration/lidar_part.h"
 
+#include "common/core/units.h"
 #include "robot/perception/cloud/self_filter.h"
 
 namespace kiln {
 namespace {
-
-constexpr double kDeg = M_PI / 180.0;
 
 Result<StillScan> scanHere(CalibrationRig& rig) {
   const auto q = rig.joints();

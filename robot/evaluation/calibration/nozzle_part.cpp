@@ -4,12 +4,11 @@
 #include <cmath>
 
 #include "common/core/log.h"
+#include "common/core/units.h"
 #include "robot/missions/fire/skills/jet.h"
 
 namespace kiln {
 namespace {
-
-constexpr double kDeg = M_PI / 180.0;
 
 Result<BoardPrior> expectedBoard(const CalibrationRig& rig, const std::string& name) {
   const auto& walls = rig.yard().walls;

@@ -3,13 +3,12 @@
 #include <cmath>
 
 #include "common/core/log.h"
+#include "common/core/units.h"
 #include "robot/missions/fire/skills/search_rectangle.h"
 #include "robot/perception/thermal/heat_detector.h"
 
 namespace kiln {
 namespace {
-
-constexpr double kDeg = M_PI / 180.0;
 
 class PlateWatch {
  public:

@@ -5,6 +5,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "common/core/units.h"
 #include "robot/localization/box_map_aligner.h"
 
 namespace kiln {
@@ -179,7 +180,7 @@ Result<MapAnchor> anchorMap(const SurfelMap& map, std::span<const Keyframe> keyf
   }
   out.wall_fixes = static_cast<int>(fixes.size());
   out.wall_rms_m = std::sqrt(metres2 / out.wall_fixes);
-  out.wall_rms_deg = std::sqrt(radians2 / out.wall_fixes) * 180.0 / M_PI;
+  out.wall_rms_deg = std::sqrt(radians2 / out.wall_fixes) / kDeg;
   return out;
 }
 

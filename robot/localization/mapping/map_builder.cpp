@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "common/core/log.h"
+#include "common/core/units.h"
 
 namespace kiln {
 namespace {
 
-constexpr double kDeg = M_PI / 180.0;
 constexpr int kMinKeyframes = 3;
 constexpr int kMaxEdges = 2000;  // of a scan, for posts
 

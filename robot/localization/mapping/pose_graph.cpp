@@ -6,6 +6,8 @@
 #include <Eigen/Cholesky>
 #include <ceres/ceres.h>
 
+#include "common/core/units.h"
+
 namespace kiln {
 namespace {
 
@@ -125,7 +127,7 @@ EdgeResidual residualOf(const std::vector<Eigen::Isometry3d>& poses,
   }
   if (out.edges > 0) {
     out.rms_m = std::sqrt(metres2 / out.edges);
-    out.rms_deg = std::sqrt(radians2 / out.edges) * 180.0 / M_PI;
+    out.rms_deg = std::sqrt(radians2 / out.edges) / kDeg;
   }
   return out;
 }

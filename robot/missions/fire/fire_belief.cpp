@@ -3,6 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include "common/core/units.h"
+
 namespace kiln {
 
 FireBelief initialFireBelief(const ArenaMap& arena) {
@@ -11,7 +13,7 @@ FireBelief initialFireBelief(const ArenaMap& arena) {
     FirePlace place;
     place.name = config.name;
     place.p_plate_map = {config.plate_xyz_m[0], config.plate_xyz_m[1], config.plate_xyz_m[2]};
-    place.facing_rad = config.facing_deg * M_PI / 180.0;
+    place.facing_rad = config.facing_deg * kDeg;
     belief.places.push_back(place);
   }
   return belief;
@@ -50,7 +52,7 @@ Result<void> FireBelief::nudgePlace(std::size_t index, const Pose2& correction) 
   if (way > kLargest_m || std::abs(correction.yaw_rad) > kLargest_rad)
     return makeError(ErrorCode::Refused,
                      "{} would be moved by {:.2f} m and {:.0f} deg; at most 1 m and 30 deg at once",
-                     places[index].name, way, correction.yaw_rad * 180.0 / M_PI);
+                     places[index].name, way, correction.yaw_rad / kDeg);
   FirePlace& place = places[index];
   place.p_plate_map += Eigen::Vector3d(correction.x_m, correction.y_m, 0.0);
   place.facing_rad = wrapAngle(place.facing_rad + correction.yaw_rad);

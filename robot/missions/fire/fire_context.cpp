@@ -4,11 +4,11 @@
 #include <utility>
 
 #include "common/core/check.h"
+#include "common/core/units.h"
 #include "robot/missions/fire/skills/pose_step.h"
 
 namespace kiln {
 namespace {
-constexpr double kDeg = M_PI / 180.0;
 constexpr double kBaseMoved_m = 0.10;  // more than a correction of the localisation
 constexpr double kBaseMoved_rad = 0.09;
 constexpr double kAtWorkPose_m = 0.5;  // near enough to reach the place with the arm

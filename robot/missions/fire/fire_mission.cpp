@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/core/log.h"
+#include "common/core/units.h"
 #include "common/wire/fire/codec/fire_codec.h"
 #include "common/wire/fire/fire_view.h"
 #include "robot/missions/fire/fire_machine.h"
@@ -161,7 +162,7 @@ Result<void> FireMission::command(const MissionCommand& command, const std::stri
   for (const auto& [name, value] : command.arguments) {
     if (name == "x") by.x_m = value;
     if (name == "y") by.y_m = value;
-    if (name == "yaw") by.yaw_rad = value * M_PI / 180.0;
+    if (name == "yaw") by.yaw_rad = value * kDeg;
   }
   return nudgePlace(command.target, by);
 }
@@ -186,7 +187,7 @@ Result<void> FireMission::nudgePlace(const std::string& name, const Pose2& by) {
         m.context.devices.arena.front(places[index].p_plate_map, places[index].facing_rad);
   logger("mission.fire")
       ->warn("{} was nudged by {:.2f}, {:.2f} m and {:.1f} deg", name, by.x_m, by.y_m,
-             by.yaw_rad * 180.0 / M_PI);
+             by.yaw_rad / kDeg);
   return {};
 }
 

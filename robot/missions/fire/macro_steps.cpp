@@ -6,10 +6,11 @@
 
 #include <fmt/format.h>
 
+#include "common/core/units.h"
+
 namespace kiln {
 namespace {
 
-constexpr double kDeg = M_PI / 180.0;
 constexpr double kMaxSpray_s = 120.0;  // what the pump controller allows in one run
 
 class AimStep final : public ArmMacroStep {

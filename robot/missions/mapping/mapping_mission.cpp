@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "common/core/units.h"
 #include "robot/missions/mapping/mapping_machine.h"
 
 namespace kiln {
@@ -19,7 +20,7 @@ void MappingConfig::visit(ConfigArchive& a) {
 MappingMission::MappingMission(const MappingConfig& config, const std::string& mission_uuid,
                                const MissionParts& parts)
     : limit_s_(config.limit_s),
-      drive_(parts, config.stow_tolerance_deg * M_PI / 180.0),
+      drive_(parts, config.stow_tolerance_deg * kDeg),
       context_{parts.clock, parts.arena, drive_, parts.pose, config.rest_s, config.max_faults},
       machine_(makeMappingMachine(context_, mission_uuid)) {}
 

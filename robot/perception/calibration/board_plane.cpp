@@ -7,10 +7,11 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "common/core/units.h"
+
 namespace kiln {
 namespace {
 
-constexpr double kDeg = M_PI / 180.0;
 constexpr double kThick_m = 0.03;  // two to three sigma of the LiDAR
 constexpr int kTries = 400;
 constexpr std::size_t kLeastPoints = 200;

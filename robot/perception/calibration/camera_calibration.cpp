@@ -8,13 +8,13 @@
 
 #include <Eigen/Dense>
 
+#include "common/core/units.h"
 #include "common/geom/camera_model.h"
 #include "robot/perception/calibration/robot_edges.h"
 
 namespace kiln {
 namespace {
 
-constexpr double kDeg = M_PI / 180.0;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 /// Brightness with sub-pixel places; -1 outside.

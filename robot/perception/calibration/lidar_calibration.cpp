@@ -10,12 +10,12 @@
 #include <ceres/ceres.h>
 #include <ceres/rotation.h>
 
+#include "common/core/units.h"
 #include "robot/perception/calibration/mounting.h"
 
 namespace kiln {
 namespace {
 
-constexpr double kDeg = M_PI / 180.0;
 constexpr int kRings = 16;
 
 /// One point as it was measured, and the posture it was measured from.

@@ -7,6 +7,7 @@
 
 #include <ceres/ceres.h>
 
+#include "common/core/units.h"
 #include "common/geom/camera_model.h"
 #include "common/geom/pose.h"
 #include "robot/perception/calibration/mounting.h"
@@ -14,7 +15,6 @@
 namespace kiln {
 namespace {
 
-constexpr double kDeg = M_PI / 180.0;
 constexpr double kLeastDistances_m = 0.15, kLeastRoll = 30.0 * kDeg;
 
 /// Everything unknown, about what is believed beforehand.

@@ -6,12 +6,11 @@
 
 #include <ceres/ceres.h>
 
+#include "common/core/units.h"
 #include "robot/perception/calibration/mounting.h"
 
 namespace kiln {
 namespace {
-
-constexpr double kDeg = M_PI / 180.0;
 
 /// What the sightings are held against.
 struct Scene {

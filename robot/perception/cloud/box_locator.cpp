@@ -7,10 +7,11 @@
 #include <Eigen/Dense>
 #include <fmt/format.h>
 
+#include "common/core/units.h"
+
 namespace kiln {
 namespace {
 
-constexpr double kDeg = M_PI / 180.0;
 constexpr double kCell = 0.02;          // m, of the likelihood grid
 constexpr double kCoarseSigma = 0.035;  // m
 constexpr double kMargin = 0.12;        // m, of the grid around the object

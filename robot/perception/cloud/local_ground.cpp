@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/core/units.h"
 #include "common/geom/bearing.h"
 
 namespace kiln {
 namespace {
-
-constexpr double kDeg = M_PI / 180.0;
 
 /// Lowest and highest point of a cell, and where the lowest ones lie.
 struct Cell {

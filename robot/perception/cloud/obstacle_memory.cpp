@@ -4,12 +4,12 @@
 #include <array>
 #include <cmath>
 
+#include "common/core/units.h"
 #include "common/geom/bearing.h"
 
 namespace kiln {
 namespace {
 
-constexpr double kDeg = M_PI / 180.0;
 constexpr std::size_t kRings = 16, kAzimuths = 720;
 constexpr double kRingStep = 2.0, kLowestRing = -15.0;  // deg (VLP-16 manual)
 constexpr std::int64_t kHalfExtent = 1 << 20;

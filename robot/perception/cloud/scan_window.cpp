@@ -2,11 +2,9 @@
 
 #include <cmath>
 
-namespace kiln {
-namespace {
-constexpr double kDeg = M_PI / 180.0;
-}
+#include "common/core/units.h"
 
+namespace kiln {
 void ScanWindow::Config::visit(ConfigArchive& a) {
   a.field("max_scans", max_scans, "", 1, 500, "kept");
   a.field("max_age_s", max_age_s, "s", 0.1, 600, "people walk, furniture is moved");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/core/units.h"
 #include "robot/perception/thermal/plate_fit.h"
 
 namespace kiln {
@@ -57,7 +58,7 @@ void HeatLocalizer::Config::visit(ConfigArchive& a) {
 struct HeatLocalizer::Impl {
   explicit Impl(Config c)
       : config(c),
-        camera(CameraModel::fromHorizontalFov(kWidth_px, kHeight_px, c.hfov_deg * M_PI / 180)) {}
+        camera(CameraModel::fromHorizontalFov(kWidth_px, kHeight_px, c.hfov_deg * kDeg)) {}
 
   /// Where the plate would be if this one view were right: along its ray, at the distance its area
   /// gives.
@@ -179,9 +180,9 @@ thermal::PlateFit HeatLocalizer::Impl::fit(const std::vector<const View*>& agree
   noise.centre_px = config.centre_sigma_px;
   noise.radius_px = config.radius_sigma_px;
   noise.size_ratio = config.size_sigma_ratio;
-  noise.normal_yaw_rad = config.normal_yaw_sigma_deg * M_PI / 180;
+  noise.normal_yaw_rad = config.normal_yaw_sigma_deg * kDeg;
   noise.extrinsic_m = config.extrinsic_sigma_m;
-  noise.extrinsic_rad = config.extrinsic_sigma_deg * M_PI / 180;
+  noise.extrinsic_rad = config.extrinsic_sigma_deg * kDeg;
   return thermal::fitPlate(model, camera, measurements, initial, normal, noise);
 }
 

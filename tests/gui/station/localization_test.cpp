@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "common/core/units.h"
 #include "common/wire/fire/codec/fire_codec.h"
 #include "common/wire/fire/fire_view.h"
 #include "gui/models/pose_placer.h"
@@ -144,7 +145,7 @@ TEST(PlaceNudge, TheSensedPlaceIsWishedAndSentOnce) {
   ASSERT_EQ(sent->arguments.size(), 3u);
   EXPECT_NEAR(sent->arguments[0].value, 0.18, 1e-3)
       << "of the plate, 10 cm behind the front that was seen";
-  EXPECT_NEAR(sent->arguments[2].value, 0.05 * 180.0 / M_PI, 1e-9);
+  EXPECT_NEAR(sent->arguments[2].value, 0.05 / kDeg, 1e-9);
   station.settle();
   EXPECT_FALSE(nudge.hasWish());
   EXPECT_TRUE(nudge.refusal().isEmpty());
@@ -157,7 +158,7 @@ TEST(PlaceNudge, StaysWithinWhatTheRobotAccepts) {
   for (int i = 0; i < 100; ++i) nudge.add(0.02, -0.02, 0.02);
   EXPECT_EQ(nudge.wish().x_m, 0.5);
   EXPECT_EQ(nudge.wish().y_m, -0.5);
-  EXPECT_NEAR(nudge.wish().yaw_rad, 30.0 * M_PI / 180.0, 1e-12);
+  EXPECT_NEAR(nudge.wish().yaw_rad, 30.0 * kDeg, 1e-12);
 }
 
 TEST(PlaceNudge, ARefusalKeepsTheWish) {

@@ -6,14 +6,13 @@
 #include <random>
 
 #include "common/config/resources.h"
+#include "common/core/units.h"
 #include "common/geom/frames.h"
 #include "common/wire/fire/codec/fire_codec.h"
 #include "common/wire/fire/fire_view.h"
 
 namespace kiln::gui {
 namespace {
-
-constexpr double kDeg = M_PI / 180.0;
 
 template <class T>
 T load(const char* name) {

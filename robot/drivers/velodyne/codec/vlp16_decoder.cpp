@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/core/units.h"
+
 namespace kiln::velodyne {
 namespace {
 
@@ -22,7 +24,7 @@ constexpr std::uint8_t ringOf(int laser) {
 Vlp16Decoder::Vlp16Decoder(Config config)
     : config_(config), cos_azimuth_(kAzimuthUnits), sin_azimuth_(kAzimuthUnits) {
   for (std::size_t i = 0; i < kLasers; ++i) {
-    const double elevation = kElevation_deg[i] * M_PI / 180;
+    const double elevation = kElevation_deg[i] * kDeg;
     cos_elevation_[i] = static_cast<float>(std::cos(elevation));
     sin_elevation_[i] = static_cast<float>(std::sin(elevation));
     rise_m_[i] = config.vertical_correction ? static_cast<float>(kRise_mm[i] * 1e-3) : 0.0f;

@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/core/units.h"
+
 namespace kiln {
 namespace {
-constexpr double kDeg = M_PI / 180.0;
 constexpr int kAimIterations =
     4;  // the drop hardly changes with the correction: converges to under 0.1 mm in 2
 

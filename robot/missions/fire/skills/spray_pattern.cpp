@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "common/core/units.h"
+
 namespace kiln {
 namespace {
 
@@ -24,8 +26,8 @@ void SprayPatternConfig::visit(ConfigArchive& a) {
 
 std::vector<Eigen::Isometry3d> hourglass(const Eigen::Isometry3d& X_map_nozzle,
                                          const SprayPatternConfig& config) {
-  const double w = config.half_width_deg * M_PI / 180.0;
-  const double h = config.half_height_deg * M_PI / 180.0;
+  const double w = config.half_width_deg * kDeg;
+  const double h = config.half_height_deg * kDeg;
   const std::vector<Eigen::Vector2d> corners{{w, h}, {-w, h}, {w, -h}, {-w, -h}, {w, h}};
   std::vector<Eigen::Isometry3d> out{tilted(X_map_nozzle, w, h)};
   for (std::size_t edge = 1; edge < corners.size(); ++edge)

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/core/units.h"
+
 namespace kiln {
 namespace {
 
 /// Lepton 3.5.
 const CameraModel& camera() {
-  static const CameraModel lepton = CameraModel::fromHorizontalFov(160, 120, 57.0 * M_PI / 180.0);
+  static const CameraModel lepton = CameraModel::fromHorizontalFov(160, 120, 57.0 * kDeg);
   return lepton;
 }
 

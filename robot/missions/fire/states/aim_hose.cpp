@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
+#include "common/core/units.h"
 #include "robot/missions/fire/skills/pose_step.h"
 #include "robot/missions/fire/states/arm_blocked.h"
 #include "robot/missions/fire/states/lost_target.h"
@@ -12,7 +13,6 @@
 
 namespace kiln {
 namespace {
-constexpr double kDeg = M_PI / 180.0;
 
 /// Largest standard deviation in any direction.
 double largestSigma(const FireEstimate& estimate) {

@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include "common/core/units.h"
+
 namespace kiln {
 namespace {
-
-constexpr double kDeg = M_PI / 180.0;
 
 TEST(CameraModel, ProjectsWhatItsRaysHit) {
   const CameraModel camera = CameraModel::fromHorizontalFov(160, 120, 57 * kDeg);

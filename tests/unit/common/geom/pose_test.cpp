@@ -6,10 +6,10 @@
 
 #include <gtest/gtest.h>
 
+#include "common/core/units.h"
+
 namespace kiln {
 namespace {
-
-constexpr double kDeg = M_PI / 180.0;
 
 class PoseProperties : public ::testing::Test {
  protected:

@@ -6,11 +6,10 @@
 #include <gtest/gtest.h>
 
 #include "common/config/resources.h"
+#include "common/core/units.h"
 
 namespace kiln {
 namespace {
-
-constexpr double kDeg = M_PI / 180.0;
 
 RobotGeometry bob() {
   RobotGeometry robot;

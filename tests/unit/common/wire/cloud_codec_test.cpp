@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "common/core/units.h"
+
 namespace kiln::wire {
 namespace {
 
@@ -16,7 +18,7 @@ PointCloud makeRoom(int azimuths, std::uint64_t seed) {
   for (int a = 0; a < azimuths; ++a) {
     const double yaw = 2.0 * M_PI * a / azimuths;
     for (int r = 0; r < 16; ++r) {
-      const double pitch = (2.0 * r - 15.0) * M_PI / 180.0;
+      const double pitch = (2.0 * r - 15.0) * kDeg;
       const double to_wall = std::min(7.0 / std::abs(std::cos(yaw)), 5.0 / std::abs(std::sin(yaw)));
       const double to_level = pitch < 0 ? 1.0 / std::tan(-pitch) : 4.0 / std::tan(pitch);
       const double d = std::round(std::min(to_wall, to_level) * 500.0) / 500.0 + noise(random);

@@ -5,12 +5,11 @@
 
 #include <gtest/gtest.h>
 
+#include "common/core/units.h"
 #include "robot/control/wheel_odometry.h"
 
 namespace kiln {
 namespace {
-
-constexpr double kDeg = M_PI / 180.0;
 
 WheelStates follow(const WheelCommands& commands) {
   WheelStates wheels;

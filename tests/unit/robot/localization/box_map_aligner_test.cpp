@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/core/units.h"
 #include "tests/unit/robot/localization/synthetic_scan.h"
 
 namespace kiln {
@@ -15,8 +16,6 @@ namespace {
 using testing::castScan;
 using testing::makeBox;
 using testing::ScanSettings;
-
-constexpr double kDeg = M_PI / 180.0;
 
 double distance(const Pose2& a, const Pose2& b) { return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m); }
 double turn(const Pose2& a, const Pose2& b) { return std::abs(wrapAngle(a.yaw_rad - b.yaw_rad)); }

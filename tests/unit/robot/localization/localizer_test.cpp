@@ -4,12 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include "common/core/units.h"
 #include "tests/unit/robot/localization/synthetic_scan.h"
 
 namespace kiln {
 namespace {
-
-constexpr double kDeg = M_PI / 180.0;
 
 Stamp at(double seconds) { return Stamp{fromSeconds(seconds)}; }
 

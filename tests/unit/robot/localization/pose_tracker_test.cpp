@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/core/units.h"
 #include "robot/localization/scan_locator.h"
 #include "tests/unit/robot/localization/synthetic_scan.h"
 
@@ -13,8 +14,6 @@ namespace {
 
 using testing::castScan;
 using testing::ScanSettings;
-
-constexpr double kDeg = M_PI / 180.0;
 
 Stamp at(double seconds) { return Stamp{fromSeconds(seconds)}; }
 

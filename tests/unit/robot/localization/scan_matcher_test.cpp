@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/core/units.h"
 #include "tests/unit/robot/localization/synthetic_map.h"
 
 namespace kiln {
@@ -19,7 +20,6 @@ using testing::MatchCase;
 using testing::ScanSettings;
 using testing::somewhereInside;
 
-constexpr double kDeg = M_PI / 180.0;
 const Eigen::Vector3d kSensor = ScanSettings{}.p_base_sensor;
 
 double planar(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {

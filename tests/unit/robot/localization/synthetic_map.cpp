@@ -3,10 +3,10 @@
 #include <cmath>
 #include <random>
 
+#include "common/core/units.h"
+
 namespace kiln::testing {
 namespace {
-
-constexpr double kDeg = M_PI / 180.0;
 
 std::vector<Pose2> along(const std::vector<Eigen::Vector2d>& corners, double step_m) {
   std::vector<Pose2> out;

@@ -6,11 +6,10 @@
 
 #include "common/config/resources.h"
 #include "common/core/check.h"
+#include "common/core/units.h"
 
 namespace kiln::testing {
 namespace {
-
-constexpr double kDeg = M_PI / 180.0;
 
 /// Distance along a unit ray to a box, or infinity; the ray is given in the box frame.
 double slab(const Eigen::Vector3d& origin, const Eigen::Vector3d& ray,

@@ -5,13 +5,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "common/core/units.h"
+
 namespace kiln {
 namespace {
 
 using ::testing::HasSubstr;
 
 const ApproachConfig kApproach{1.0, 3.2, 4.0, 3.6, 0.02};
-const double kRise = 2.2 * std::tan(4.0 * M_PI / 180.0);  // 0.1538 m over the ramp
+const double kRise = 2.2 * std::tan(4.0 * kDeg);  // 0.1538 m over the ramp
 
 /// Height of each wheel's contact point above the ground.
 Eigen::Vector4d clearances(const GroundProfile& ground, const Eigen::Isometry3d& X,

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/core/units.h"
 #include "common/geom/pose.h"
 #include "robot/scene/primitive_meshes.h"
 
@@ -151,7 +152,7 @@ TEST(Raycaster, APlateWithARoundHoleLetsPassWhatMeetsTheHole) {
   scene.addMesh(mesh.vertices, mesh.triangles, Eigen::Isometry3d::Identity(), 1);
   scene.commit();
   for (int i = 0; i < 360; ++i) {
-    const double angle = (i + 0.3) * M_PI / 180.0;  // between the edges of triangles
+    const double angle = (i + 0.3) * kDeg;  // between the edges of triangles
     const auto at_radius = [&](double r) {
       return castOne(scene, {{1.0F, static_cast<float>(r * std::cos(angle)),
                               static_cast<float>(r * std::sin(angle))},

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "common/config/resources.h"
+#include "common/core/units.h"
 #include "robot/control/base_controller.h"
 #include "robot/sim/world.h"
 
@@ -66,7 +67,7 @@ struct DrivenWorld {
   }
   [[nodiscard]] Eigen::Isometry3d pose() const { return world->truth().X_map_base; }
   [[nodiscard]] double pitchDeg() const {  // nose up positive
-    return std::asin(pose().linear()(2, 0)) * 180.0 / M_PI;
+    return std::asin(pose().linear()(2, 0)) / kDeg;
   }
 
   std::unique_ptr<World> world;

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "common/core/units.h"
 #include "robot/sim/device_wire.h"
 #include "robot/sim/truth_report.h"
 #include "tests/support/paths.h"
@@ -165,7 +166,7 @@ TEST_F(WorldTest, ArmTracksASmoothMotionAndHoldsAfterIt) {
     const double s1 = (t + kPeriod) / 2.0, p1 = s1 * s1 * s1 * (10 - 15 * s1 + 6 * s1 * s1);
     worst = std::max(worst, (report.arm.q - from - p1 * way).cwiseAbs().maxCoeff());
   }
-  EXPECT_LT(worst, 0.5 * M_PI / 180.0);
+  EXPECT_LT(worst, 0.5 * kDeg);
   report = world->advance(world->now() + fromSeconds(2.0));
   EXPECT_LT((report.arm.q - from - way).cwiseAbs().maxCoeff(), 1e-3);
   EXPECT_LT(report.arm.qd.cwiseAbs().maxCoeff(), 1e-3);
@@ -359,7 +360,7 @@ TEST_F(WorldTest, PerturbationsStayWithinTheScenario) {
     const auto world = make({}, seed);
     const Truth truth = world->truth();
     EXPECT_LT(std::fabs(truth.starts[0].x_m), 0.2);
-    EXPECT_LT(std::fabs(truth.starts[0].yaw_rad), 5.01 * M_PI / 180.0);
+    EXPECT_LT(std::fabs(truth.starts[0].yaw_rad), 5.01 * kDeg);
     const Eigen::Vector3d nominal[2] = {{12.1, 2.8, 1.0}, {10.6, -4.6, 1.0}};
     for (std::size_t i = 0; i < 2; ++i) {
       const Eigen::Vector3d off = truth.arena.fire_places[i].plateInMap() - nominal[i];

@@ -5,14 +5,13 @@
 
 #include <gtest/gtest.h>
 
+#include "common/core/units.h"
 #include "tests/unit/robot/localization/synthetic_map.h"
 
 namespace kiln {
 namespace {
 
 using testing::ScanSettings;
-
-constexpr double kDeg = M_PI / 180.0;
 
 /// Wheels that are 1 % too small and pull to one side by 0.4 deg a metre.
 class DriftingOdometry {

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/core/units.h"
 #include "common/geom/camera_model.h"
 #include "tests/support/paths.h"
 
@@ -176,7 +177,7 @@ void FireRig::takeImage() {
     HeatBlob& blob = seen.blobs.emplace_back();
     blob.peak_k = plate_c + kKelvin;
     if (plate_c < kThreshold_c) blob.rejection = HeatRejection::TooCool;
-    const auto px = CameraModel::fromHorizontalFov(160, 120, 57.0 * M_PI / 180.0)
+    const auto px = CameraModel::fromHorizontalFov(160, 120, 57.0 * kDeg)
                         .project(X_map_thermal.inverse() * sweep.p_plate_map);
     if (px) {
       blob.u = px->x();

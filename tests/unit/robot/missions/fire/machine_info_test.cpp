@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/core/units.h"
 #include "common/wire/fire/fire_view.h"
 #include "tests/unit/robot/missions/fire/fire_rig.h"
 
@@ -91,7 +92,7 @@ TEST(FireMission, ItsCommandsAreThoseThatItDescribes) {
   const Pose2 by = rig.mission->site(rig.clock.now()).places[1].nudge;
   EXPECT_NEAR(by.x_m, 0.1, 1e-12);
   EXPECT_NEAR(by.y_m, -0.2, 1e-12);
-  EXPECT_NEAR(by.yaw_rad, 3.0 * M_PI / 180.0, 1e-12);
+  EXPECT_NEAR(by.yaw_rad, 3.0 * kDeg, 1e-12);
   const MissionCommand go_on{fire::kContinueDespite, "place 1", {}};
   EXPECT_EQ(rig.mission->command(go_on, "Ada", rig.clock.now()).error().code, ErrorCode::Refused)
       << "nothing objects";

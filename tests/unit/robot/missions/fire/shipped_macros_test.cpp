@@ -3,6 +3,7 @@
 
 #include "common/config/resources.h"
 #include "common/core/check.h"
+#include "common/core/units.h"
 #include "robot/missions/fire/macro_steps.h"
 #include "robot/missions/fire/skills/jet.h"
 #include "robot/skills/macro_runner.h"
@@ -61,7 +62,7 @@ class ShippedMacros : public ::testing::Test {
   void watchJet() {
     const Eigen::Isometry3d X_map_nozzle =
         toIsometry(base) * robot.X_base_flange(arm.state()->q) * robot.X_flange_nozzle.pose();
-    const double yaw = place->facing_deg * M_PI / 180.0;
+    const double yaw = place->facing_deg * kDeg;
     const Eigen::Vector3d normal(std::cos(yaw), std::sin(yaw), 0.0);
     const Eigen::Vector3d plate(place->plate_xyz_m[0], place->plate_xyz_m[1],
                                 place->plate_xyz_m[2]);

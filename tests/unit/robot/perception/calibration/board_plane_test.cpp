@@ -5,12 +5,12 @@
 
 #include <gtest/gtest.h>
 
+#include "common/core/units.h"
 #include "common/geom/pose.h"
 
 namespace kiln {
 namespace {
 
-constexpr double kDeg = M_PI / 180.0;
 const BoardPrior kPrior{{{1.5, 1.3, 1.1}, Eigen::Vector3d(-0.5, -0.87, 0).normalized(), 0.0, 0}};
 
 /// Points of a board, turned and shifted from where it is expected, and of a wall a metre behind.

@@ -5,13 +5,12 @@
 
 #include <gtest/gtest.h>
 
+#include "common/core/units.h"
 #include "robot/sim/colour_camera.h"
 #include "tests/unit/robot/perception/cloud/scan_rig.h"
 
 namespace kiln {
 namespace {
-
-constexpr double kDeg = M_PI / 180.0;
 
 /// Pictures with the head at several places, as a calibration takes them.
 std::vector<RobotPicture> picturesOf(const ScanRig& rig, int count) {

@@ -4,12 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include "common/core/units.h"
 #include "tests/unit/robot/perception/cloud/scan_rig.h"
 
 namespace kiln {
 namespace {
-
-constexpr double kDeg = M_PI / 180.0;
 
 /// The kitchen seen from the hub by a robot whose LiDAR sits where this seed has put it.
 std::vector<StillScan> scansOf(ScanRig& rig, int postures, double tilt_deg) {

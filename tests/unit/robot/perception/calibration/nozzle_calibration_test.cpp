@@ -5,13 +5,12 @@
 
 #include <gtest/gtest.h>
 
+#include "common/core/units.h"
 #include "common/geom/camera_model.h"
 #include "common/geom/pose.h"
 
 namespace kiln {
 namespace {
-
-constexpr double kDeg = M_PI / 180.0;
 
 const Eigen::Isometry3d kNozzle = makePose({0.06, 0.05, 0.20}, {90 * kDeg, -90 * kDeg, 0});
 const Eigen::Isometry3d kThermal = makePose({-0.06, 0.04, 0.13}, {0, 0, 0});

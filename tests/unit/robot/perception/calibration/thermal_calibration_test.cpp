@@ -5,12 +5,11 @@
 
 #include <gtest/gtest.h>
 
+#include "common/core/units.h"
 #include "common/geom/pose.h"
 
 namespace kiln {
 namespace {
-
-constexpr double kDeg = M_PI / 180.0;
 
 /// Camera poses before a plate, as the routine chooses them: aslant, rolled, near and far.
 std::vector<PlateSighting> sightingsOf(const Eigen::Isometry3d& X_flange_thermal,

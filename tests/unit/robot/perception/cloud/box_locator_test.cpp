@@ -5,12 +5,11 @@
 
 #include <gtest/gtest.h>
 
+#include "common/core/units.h"
 #include "tests/unit/robot/perception/cloud/scan_rig.h"
 
 namespace kiln {
 namespace {
-
-constexpr double kDeg = M_PI / 180.0;
 
 Eigen::Isometry3d configuredFront(const ArenaMap& map, std::size_t place) {
   const FirePlaceConfig& c = map.fire_places[place];

@@ -6,10 +6,11 @@
 
 #include <gtest/gtest.h>
 
+#include "common/core/units.h"
+
 namespace kiln {
 namespace {
 
-constexpr double kDeg = M_PI / 180.0;
 constexpr double kLidarHeight = 1.5;
 
 /// Rings of a VLP-16 at (0, 0, kLidarHeight) over a ground of the given height, with noise.

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/core/units.h"
 #include "tests/unit/robot/perception/cloud/scan_rig.h"
 
 namespace kiln {
@@ -18,7 +19,7 @@ const Eigen::Isometry3d kLidar(Eigen::Translation3d(0, 0, 1.5));
 PointCloud postAt(double range, double t, double post_from = 1.3) {
   PointCloud scan;
   scan.stamp = at(t);
-  const double slope = std::tan(-1.0 * M_PI / 180.0);
+  const double slope = std::tan(-1.0 * kDeg);
   for (int i = 0; i < 1800; ++i) {
     const double a = -M_PI + i * 2.0 * M_PI / 1800;
     const bool post = range > 0.0 && std::abs(a) * range < 0.1;

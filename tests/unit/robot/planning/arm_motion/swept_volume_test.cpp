@@ -4,12 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include "common/core/units.h"
 #include "tests/unit/robot/planning/arm_motion/bob.h"
 
 namespace kiln {
 namespace {
-
-constexpr double kDeg = M_PI / 180.0;
 
 /// A ball of points.
 std::vector<Eigen::Vector3f> ball(const Eigen::Vector3d& centre, double radius = 0.06) {

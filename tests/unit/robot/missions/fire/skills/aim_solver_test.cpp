@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/core/units.h"
 #include "robot/missions/fire/skills/jet.h"
 
 namespace kiln {
@@ -75,7 +76,7 @@ TEST(AimSolver, VariationsStayWithinTheirBounds) {
   for (const AimVariation& v : variations) {
     EXPECT_GE(v.standoff_m, 0.65 - 1e-9);
     EXPECT_LE(v.standoff_m, 0.95 + 1e-9);
-    EXPECT_LE(std::abs(v.lateral_rad), 20.0 * M_PI / 180.0 + 1e-9);
+    EXPECT_LE(std::abs(v.lateral_rad), 20.0 * kDeg + 1e-9);
   }
 }
 
