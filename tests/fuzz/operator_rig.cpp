@@ -60,6 +60,7 @@ std::optional<CommandAck> OperatorRig::execute(const Authority::Accepted& accept
   const std::uint64_t step = parts_->machine.checkpoint().step;
   if (letsGo(command.body)) asleep_ = machine_asleep_ = false;
   auto ack = parts_->control.execute(accepted, at);
+  if (parts_->runner.running()) arm_writer_ = pumps_writer_ = Writer::Program;
   if (!ack || ack->outcome != AckOutcome::Done) return ack;
   const auto* change = std::get_if<ChangeState>(&command.body);
   if (change && change->step != step) breaks("5: a command of an old step has an effect");
@@ -79,6 +80,7 @@ void OperatorRig::tick(bool heard) {
     pumps_.advance();
     parts_->tickControllers(now());
   }
+  judgeWriters();
   Parts& p = *parts_;
   if (std::exchange(p.people.asked, false)) {
     p.base.resetOdometry();
@@ -129,6 +131,7 @@ bool OperatorRig::letsGo(const CommandBody& body) const {
 
 void OperatorRig::judgeMachineWrite() {
   worked_.insert(parts_->machine.checkpoint().step);
+  base_writer_ = arm_writer_ = pumps_writer_ = Writer::Program;
   const MissionHost& host = parts_->host;
   if (host.phase() != MissionPhase::Running) breaks("1: a machine that is held writes a setpoint");
   if (stop_unseen_) return;  // the controllers see it
@@ -154,6 +157,9 @@ void OperatorRig::judgeSetpoint(const Command& command) {
   if (toSeconds(now() - command.issued) > 0.3) breaks("5: a late setpoint moves something");
   if (parts_->host.mode() != Mode::Teleop) breaks("2: a hand moves something outside Teleop");
   const HoldKind kind = *holdKind(command.body);
+  if (kind == HoldKind::BaseJog) base_writer_ = Writer::Hand;
+  if (kind == HoldKind::ArmJog) arm_writer_ = Writer::Hand;
+  if (kind == HoldKind::Actuator) pumps_writer_ = Writer::Hand;
   if (kind == HoldKind::BaseJog) base_asked_ = now();
   if (kind == HoldKind::ArmJog || kind == HoldKind::Macro) arm_asked_ = now();
   if (kind == HoldKind::Actuator || kind == HoldKind::Macro) pumps_asked_ = now();
@@ -200,6 +206,17 @@ void OperatorRig::judgePresses() {
       press.over = true;
     press.sent = press.obeyed = false;
   }
+}
+
+/// The controllers follow who wrote last, and say so.
+void OperatorRig::judgeWriters() {
+  const Parts& p = *parts_;
+  const auto lies = [](const std::optional<Writer>& said, Writer wrote) {
+    return said && *said != wrote;
+  };
+  if (lies(p.base.tracking().writer, base_writer_) || lies(p.arm.tracking().writer, arm_writer_) ||
+      lies(p.pumps.tracking().writer, pumps_writer_))
+    breaks("2: an actuator follows another writer than the last one");
 }
 
 /// Everything that moves does so because somebody asks for it now, or did a moment ago.

@@ -99,7 +99,7 @@ class OperatorRig final : Authority::Handler {
     bool sent = false;    ///< in this tick, in good time and by who holds the lease
     bool obeyed = false;  ///< in this tick
     std::uint64_t released = ~std::uint64_t{0};  ///< number of the command
-    std::optional<Stamp> last;                   ///< obeyed
+    std::optional<Stamp> last{};                 ///< obeyed
     std::uint64_t lease = 0, epoch = 0;
   };
 
@@ -134,6 +134,7 @@ class OperatorRig final : Authority::Handler {
   [[nodiscard]] bool letsGo(const CommandBody& body) const;
   void judgeMachineWrite();
   void judgeTick();
+  void judgeWriters();
   void judgePresses();
   void judgeMotion();
   void judgeCounters();
@@ -165,8 +166,10 @@ class OperatorRig final : Authority::Handler {
   bool machine_asleep_ = false;  ///< held, and neither started nor resumed since
   Stamp asleep_since_;
   Stamp base_asked_, arm_asked_, pumps_asked_;  ///< last time that somebody might move it
-  Vector6d q_;                                  ///< measured
-  Pose2 X_map_base_;                            ///< true
+  Writer base_writer_ = Writer::Program, arm_writer_ = Writer::Program,
+         pumps_writer_ = Writer::Program;
+  Vector6d q_;        ///< measured
+  Pose2 X_map_base_;  ///< true
 };
 
 }  // namespace kiln

@@ -245,6 +245,7 @@ void OperatorRig::giveEvent(Act act) {
 /// operators start anew.
 void OperatorRig::killAndResume() {
   tick();
+  tick();  // one of the tick before may be a late STOP
   if (saved_.empty()) return;
   const auto checkpoint = decodeCheckpoint(saved_, "saved");
   if (!checkpoint) return breaks("7: the checkpoint cannot be read");
