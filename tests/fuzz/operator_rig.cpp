@@ -59,8 +59,13 @@ std::optional<CommandAck> OperatorRig::execute(const Authority::Accepted& accept
   const Mode mode = parts_->host.mode();
   const std::uint64_t step = parts_->machine.checkpoint().step;
   if (letsGo(command.body)) asleep_ = machine_asleep_ = false;
+  const bool macro_ran = parts_->runner.running();
   auto ack = parts_->control.execute(accepted, at);
-  if (parts_->runner.running()) arm_writer_ = pumps_writer_ = Writer::Program;
+  if (parts_->runner.running() && !macro_ran) {
+    arm_writer_ = pumps_writer_ = Writer::Program;
+    for (Press& press : presses_)  // what else is held ends
+      press.over = press.over || (press.last && holdKind(press.body) != HoldKind::Macro);
+  }
   if (!ack || ack->outcome != AckOutcome::Done) return ack;
   const auto* change = std::get_if<ChangeState>(&command.body);
   if (change && change->step != step) breaks("5: a command of an old step has an effect");
@@ -163,6 +168,8 @@ void OperatorRig::judgeSetpoint(const Command& command) {
   if (kind == HoldKind::BaseJog) base_asked_ = now();
   if (kind == HoldKind::ArmJog || kind == HoldKind::Macro) arm_asked_ = now();
   if (kind == HoldKind::Actuator || kind == HoldKind::Macro) pumps_asked_ = now();
+  asleep_ = false;  // it was pressed since: a STOP ends every press
+  if (command.client_id == "ben" && other_over_) breaks("5: a press that was over moves something");
   if (command.client_id != "ann" || command.press == 0) return;
   Press& press = presses_[command.press - 1];
   const std::uint64_t epoch = parts_->authority.epoch().value();
@@ -176,7 +183,6 @@ void OperatorRig::judgeSetpoint(const Command& command) {
   press.lease = lease.epoch;
   press.epoch = epoch;
   press.obeyed = true;
-  asleep_ = false;  // it was pressed since: a STOP ends every press
   for (std::size_t i = 0; i + 1 < command.press; ++i)
     if (holdKind(presses_[i].body) == kind) presses_[i].over = true;
 }

@@ -35,7 +35,7 @@ enum class Act : std::uint8_t {
   Again,        ///< the newest press goes on
   OldPress,     ///< the press before it goes on
   OldLeaseJog,
-  OtherJogs,  ///< the other operator, without the lease
+  OtherJogs,  ///< the other operator, always the same press
   LateJog,    ///< 0.5 s on its way
   Replay,     ///< the newest command once more
   Release,
@@ -150,7 +150,8 @@ class OperatorRig final : Authority::Handler {
   std::vector<Sent> batch_;
   std::optional<Sent> newest_;
   std::uint64_t nonce_ = 0;
-  std::vector<Press> presses_;  ///< press number - 1
+  std::vector<Press> presses_;                    ///< press number - 1
+  bool other_sent_ = false, other_over_ = false;  ///< the one press of the other operator
   bool ready_ = true, located_ = true, sees_ = true, slow_ = false;
   bool other_stop_ = false;  ///< comes while a clear is carried out
   bool late_stop_ = false;   ///< comes after the commands of this tick
