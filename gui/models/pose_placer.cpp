@@ -29,8 +29,8 @@ bool PosePlacer::mayStart(QString* why) const {
   const FsmStatus* fsm = models_.fsm.status();
   if (fsm && fsm->running && !fsm->paused) return refuse(tr("a mission runs: pause it first"));
   const RobotStatus* status = models_.status.status();
-  if (status && (std::hypot(status->twist.vx_mps, status->twist.vy_mps) > kStandstill_mps ||
-                 std::abs(status->twist.wz_radps) > kStandstill_radps)) {
+  if (status && !(std::hypot(status->twist.vx_mps, status->twist.vy_mps) <= kStandstill_mps &&
+                  std::abs(status->twist.wz_radps) <= kStandstill_radps)) {
     return refuse(tr("the robot moves: wait for standstill"));
   }
   return true;

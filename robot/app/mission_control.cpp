@@ -157,6 +157,11 @@ void MissionControl::executeSetpoint(const Authority::Accepted& accepted) {
   const bool macro_runs = parts_.macros.running();
   if (const auto* macro = std::get_if<HoldMacro>(&body)) {
     if (macro->name.empty()) return;
+    if (!macro_runs) {  // an actuator has one writer
+      parts_.teleop.releaseAll(accepted.received);
+      for (const HoldKind kind : {HoldKind::BaseJog, HoldKind::ArmJog, HoldKind::Actuator})
+        parts_.authority.endHold(kind);
+    }
     parts_.macros.hold(macro->name, macro->restart, accepted.received);
     if (!parts_.macros.running()) parts_.authority.endHold(HoldKind::Macro);
     return;

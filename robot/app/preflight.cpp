@@ -240,6 +240,29 @@ std::string lateProduct(const PreflightInputs& in, const PreflightLimits& limits
   return fmt::format("no cloud for {:.1f} s although the LiDAR delivers", *in.cloud_age_s);
 }
 
+Check writersCheck(const std::vector<ActuatorWriter>& actuators, Mode mode) {
+  const char* program = mode == Mode::Teleop ? "macro" : "mission";
+  std::string found;
+  for (const auto& [actuator, writer] : actuators)
+    found += fmt::format("{}{}: {}", found.empty() ? "" : ", ", actuator,
+                         !writer                   ? "nobody"
+                         : *writer == Writer::Hand ? "teleop"
+                                                   : program);
+  return ok("Setpoints", found);
+}
+
+std::string silentDevice(const PreflightInputs& in, const PreflightLimits& limits) {
+  const auto objection = [&](const char* device, const std::optional<double>& age_s) {
+    if (!age_s) return fmt::format("no state of the {} yet", device);
+    if (*age_s <= limits.device_age_s) return std::string();
+    return fmt::format("no state of the {} for {:.1f} s", device, *age_s);
+  };
+  std::string out = objection("base", in.base_age_s);
+  if (out.empty()) out = objection("arm", in.arm_age_s);
+  if (out.empty() && in.has_pumps) out = objection("pumps", in.pumps_age_s);
+  return out;
+}
+
 bool allOk(const std::vector<Check>& checks) {
   return std::all_of(checks.begin(), checks.end(), [](const Check& check) { return check.ok; });
 }

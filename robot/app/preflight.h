@@ -6,6 +6,7 @@
 
 #include "common/model/status.h"
 #include "robot/app/controller_limits.h"
+#include "robot/control/writer.h"
 #include "robot/hal/device_set.h"
 #include "robot/hal/lidar.h"
 #include "robot/localization/pose_tracker.h"
@@ -73,10 +74,21 @@ struct PreflightLimits {
 /// at rest: that a pump moves water shows only when it sprays.
 [[nodiscard]] std::vector<Check> preflight(const PreflightInputs& inputs,
                                            const PreflightLimits& limits);
+/// Whose setpoints the actuators follow, by name: "base: teleop, arm: nobody". Always well: that
+/// there is never more than one is checked where they are written (robot/control/setpoint_slot.h).
+struct ActuatorWriter {
+  std::string actuator;
+  std::optional<Writer> writer;
+};
+[[nodiscard]] Check writersCheck(const std::vector<ActuatorWriter>& actuators, Mode mode);
 [[nodiscard]] bool allOk(const std::vector<Check>& checks);
 /// What perception owes: frames arrive and nothing is made of them ("no cloud for 3.1 s although
 /// the LiDAR delivers"). Empty: it keeps up, or its sensors are silent, which is their own row.
 [[nodiscard]] std::string lateProduct(const PreflightInputs& inputs, const PreflightLimits& limits);
+/// Which of arm, base and pumps is silent and for how long ("no state of the base for 1.2 s"):
+/// whatever the mission is at, it stands still. Empty: all report.
+[[nodiscard]] std::string silentDevice(const PreflightInputs& inputs,
+                                       const PreflightLimits& limits);
 /// "LiDAR: no data for 2.1 s; check its cable and power" or empty.
 [[nodiscard]] std::string firstFailure(const std::vector<Check>& checks);
 

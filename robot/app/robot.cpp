@@ -9,6 +9,7 @@
 #include "common/robot_model/robot_calibration.h"
 #include "robot/app/robot_reporting.h"
 #include "robot/app/safety_files.h"
+#include "robot/app/standstill.h"
 #include "robot/skills/arena_fence.h"
 
 namespace kiln {
@@ -155,9 +156,9 @@ GateSituation Robot::Impl::gateSituation(Stamp now) const {
   GateSituation found;
   const auto arm_state = body.devices.arm.state();
   found.protective_stop = arm_state && arm_state->safety == ArmSafetyMode::ProtectiveStop;
-  const Twist2 moving = body.base.tracking().measured;
-  found.base_moving = std::hypot(moving.vx_mps, moving.vy_mps) > kStandstill_mps ||
-                      std::abs(moving.wz_radps) > kStandstill_radps;
+  const Twist2 moving = knownTwist(body.base.tracking().measured, body.devices.base.state(), now);
+  found.base_moving = !(std::hypot(moving.vx_mps, moving.vy_mps) <= kStandstill_mps &&
+                        std::abs(moving.wz_radps) <= kStandstill_radps);
   found.mission = &mission.info();
   found.ready = allOk(reporting.checks());
   found.not_ready_reason = firstFailure(reporting.checks());

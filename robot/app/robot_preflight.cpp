@@ -30,6 +30,11 @@ void RobotReporting::runChecks(Stamp now) {
   const PreflightInputs found = preflightInputs(now);
   checks_ = preflight(found, body_.settings.preflight);
   for (Check& check : parts_.mission.mission().checks(now)) checks_.push_back(std::move(check));
+  std::vector<ActuatorWriter> writers{{"base", body_.base.tracking().writer},
+                                      {"arm", body_.arm.tracking().writer}};
+  if (found.has_pumps) writers.push_back({"pumps", body_.pumps.tracking().writer});
+  checks_.push_back(writersCheck(writers, parts_.mission.host().mode()));
+  silent_device_ = silentDevice(found, body_.settings.preflight);
   late_product_ = lateProduct(found, body_.settings.preflight);
 }
 

@@ -114,7 +114,9 @@ RobotStatus RobotReporting::status(Stamp now) const {
   s.environment = body_.options.environment;
   s.mode = host.mode();
   s.word = host.word(allOk(checks_));
-  s.reason = s.word == StatusWord::NotReady ? firstFailure(checks_) : host.reason();
+  s.reason = s.word == StatusWord::NotReady ? firstFailure(checks_)
+             : s.word == StatusWord::Auto   ? silent_device_
+                                            : host.reason();
   s.phase = host.phase();
   s.holds = host.holds();
   s.checks = checks_;
@@ -122,7 +124,7 @@ RobotStatus RobotReporting::status(Stamp now) const {
   s.stop = stopStatus(now);
   s.X_map_base = parts_.localization.pose();
   s.pose_age_s = parts_.localization.tracked().age_s;
-  s.twist = body_.base.tracking().measured;
+  s.twist = knownTwist(body_.base.tracking().measured, body_.devices.base.state(), now);
   if (const auto arm_state = body_.devices.arm.state()) s.arm = *arm_state;
   if (const auto base_state = body_.devices.base.state()) {
     for (std::size_t i = 0; i < 4; ++i) s.wheel_steer_rad[i] = base_state->wheels[i].steer_rad;

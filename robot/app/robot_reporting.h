@@ -63,6 +63,7 @@ class RobotReporting {
   TrajectoryLog driven_;
   bool driven_grew_ = false;
   std::vector<Check> checks_;
+  std::string silent_device_;     ///< which does not report; empty: all do
   std::string late_product_;      ///< what perception owes; empty: it keeps up
   std::vector<LimitRow> limits_;  ///< configured against possible
   std::optional<double> disk_free_gb_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace kiln {
 namespace {
@@ -35,6 +36,11 @@ void proveStandstill(StopStatus& status, const std::optional<ArmState>& arm,
                                        [](double a) { return std::abs(a) < kPumpRest_a; });
   status.standstill_proven =
       status.latched && status.arm_at_rest && status.base_at_rest && status.pumps_at_rest;
+}
+
+Twist2 knownTwist(const Twist2& measured, const std::optional<BaseState>& base, Stamp now) {
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  return young(base, now) ? measured : Twist2{kUnknown, kUnknown, kUnknown};
 }
 
 }  // namespace kiln

@@ -16,4 +16,10 @@ void proveStandstill(StopStatus& status, const std::optional<ArmState>& arm,
                      const std::optional<BaseState>& base, const std::optional<PumpsState>& pumps,
                      Stamp now);
 
+/// How the base moves by its wheels; NaN when they have not reported for 0.1 s: an old speed is
+/// none.
+/// @param measured  of the newest report.
+[[nodiscard]] Twist2 knownTwist(const Twist2& measured, const std::optional<BaseState>& base,
+                                Stamp now);
+
 }  // namespace kiln

@@ -50,6 +50,7 @@ void Teleop::jogBase(const JogBase& jog, Stamp received, double link_scale) {
   const double scale = speed_scale_ * link_scale;
   BaseSetpoint setpoint;
   setpoint.stamp = received;
+  setpoint.writer = Writer::Hand;
   // A full stick asks for the full teleop speed; the operator's speed scale and a slow link shrink
   // it.
   setpoint.twist.vx_mps =
@@ -101,6 +102,7 @@ void Teleop::jogArm(const JogArm& jog, const Vector6d& q, const Pose2& X_map_bas
   ArmSetpoint setpoint;
   setpoint.kind = ArmSetpoint::Kind::JointVelocity;
   setpoint.stamp = received;
+  setpoint.writer = Writer::Hand;
   setpoint.qd = jointRates(jog, q, speed_scale_ * link_scale);
   setpoint.stop_force_n = config_.guard_force_n;
   blocked_ = objection(q, setpoint.qd, X_map_base);
@@ -117,6 +119,7 @@ std::vector<ActuatorSpec> Teleop::actuators() {
 void Teleop::holdActuator(const HoldActuator& hold, Stamp received) {
   PumpSetpoint setpoint;
   setpoint.stamp = received;
+  setpoint.writer = Writer::Hand;
   const double duty = std::clamp(hold.value, 0.0, 1.0);
   setpoint.duty = {hold.name == kPumpRight ? 0.0 : duty, hold.name == kPumpLeft ? 0.0 : duty};
   pumps_.setpoint(setpoint);

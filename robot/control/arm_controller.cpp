@@ -289,6 +289,8 @@ struct ArmController::Impl {
     tracking.refused = refused;
     tracking.stop_latched = stop.latched();
     tracking.blocked = blocked;
+    const bool moves = blocked.empty() && !current.rests();
+    tracking.writer = moves ? std::optional(current.writer) : std::nullopt;
   }
 
   Config config;

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "common/config/config_archive.h"
 #include "common/core/clock.h"
 #include "common/robot_model/robot_geometry.h"
+#include "robot/control/writer.h"
 #include "robot/hal/arm.h"
 #include "robot/safety/stop_latch.h"
 
@@ -22,6 +24,10 @@ struct ArmSetpoint {
       Vector6d::Zero();  ///< Joints: target for this instant on a jerk-limited trajectory, rad
   Vector6d qd = Vector6d::Zero();  ///< Joints: feed-forward; JointVelocity: the wish, rad/s
   double stop_force_n = 0.0;  ///< > 0: guarded motion, stop and latch a contact above this force
+  Writer writer = Writer::Program;
+  [[nodiscard]] bool rests() const {
+    return kind == Kind::Hold || (kind == Kind::JointVelocity && qd.isZero(0.0));
+  }
 };
 
 struct ArmTracking {
@@ -38,6 +44,7 @@ struct ArmTracking {
       false;  ///< the newest setpoint was refused (NaN, out of limits, jump); `blocked` says why
   std::string
       blocked;  ///< why it does not move: "protective stop", "STOP latched", "setpoint too old" ...
+  std::optional<Writer> writer;  ///< as of BaseTracking
 };
 
 /// Tracks setpoints at the servo rate with velocity, acceleration and jerk limits. Refuses NaN,

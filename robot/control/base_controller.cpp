@@ -56,6 +56,7 @@ struct BaseController::Impl {
   struct Wish {
     Eigen::Vector3d target = Eigen::Vector3d::Zero();
     std::string blocked, limited;
+    std::optional<Writer> writer;
   };
 
   Eigen::Vector3d weighted(const Twist2& t) const {
@@ -80,20 +81,21 @@ struct BaseController::Impl {
   Wish wish(Stamp now, const std::optional<BaseState>& state) {
     if (stop.latched()) {
       slot.clear();
-      return {Eigen::Vector3d::Zero(), "STOP latched by " + stop.source(), ""};
+      return {Eigen::Vector3d::Zero(), "STOP latched by " + stop.source(), "", {}};
     }
-    if (!state) return {Eigen::Vector3d::Zero(), "no wheel state yet", ""};
+    if (!state) return {Eigen::Vector3d::Zero(), "no wheel state yet", "", {}};
     const double age = toSeconds(now - state->stamp);
     if (age > config.max_state_age_s) {
-      return {Eigen::Vector3d::Zero(), fmt::format("wheel state is {:.0f} ms old", 1e3 * age), ""};
+      return {
+          Eigen::Vector3d::Zero(), fmt::format("wheel state is {:.0f} ms old", 1e3 * age), "", {}};
     }
     if (!kiln::isFinite(*state))
-      return {Eigen::Vector3d::Zero(), "wheel state is not a number", ""};
+      return {Eigen::Vector3d::Zero(), "wheel state is not a number", "", {}};
     const auto taken = slot.take(now, fromSeconds(config.max_setpoint_age_s),
                                  fromSeconds(config.future_tolerance_s));
-    if (!taken.setpoint) return {Eigen::Vector3d::Zero(), taken.blocked, ""};
+    if (!taken.setpoint) return {Eigen::Vector3d::Zero(), taken.blocked, "", {}};
     const Geofence::Limited allowed = insideFence(taken.setpoint->twist);
-    return {limited(allowed.twist), "", allowed.reason};
+    return {limited(allowed.twist), "", allowed.reason, taken.writer()};
   }
 
   Geofence::Limited insideFence(const Twist2& twist) const {
@@ -191,6 +193,7 @@ struct BaseController::Impl {
     tracking.stop_latched = stop.latched();
     tracking.blocked = w.blocked;
     tracking.limited = w.limited;
+    tracking.writer = w.writer;
   }
 
   Config config;

@@ -8,6 +8,7 @@
 #include "common/config/config_archive.h"
 #include "common/core/clock.h"
 #include "common/robot_model/robot_geometry.h"
+#include "robot/control/writer.h"
 #include "robot/hal/drive_base.h"
 #include "robot/safety/geofence.h"
 #include "robot/safety/stop_latch.h"
@@ -20,6 +21,10 @@ struct BaseSetpoint {
   Stamp stamp;
   Duration ttl = std::chrono::milliseconds(250);
   Twist2 twist;  ///< base frame
+  Writer writer = Writer::Program;
+  [[nodiscard]] bool rests() const {
+    return twist.vx_mps == 0.0 && twist.vy_mps == 0.0 && twist.wz_radps == 0.0;
+  }
 };
 
 struct BaseTracking {
@@ -36,6 +41,8 @@ struct BaseTracking {
   bool at_rest = true;
   std::string blocked;
   std::string limited;  ///< what the geofence took away from the command, and why
+  std::optional<Writer>
+      writer;  ///< of the setpoint that is followed; nullopt: none asks for motion
 };
 
 /// Four steered wheels: inverse kinematics with steering range and rate limits (waits for the

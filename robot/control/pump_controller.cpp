@@ -56,6 +56,7 @@ struct PumpController::Impl {
       return {};
     }
     const Duty duty = taken.setpoint->duty;
+    writer = taken.setpoint->writer;
     if (duty[0] <= 0.0 && duty[1] <= 0.0) {
       run_exhausted = false;
       return {};
@@ -118,6 +119,7 @@ struct PumpController::Impl {
     tracking.no_current = no_current[0] || no_current[1];
     tracking.spraying = duty[0] > 0.0 || duty[1] > 0.0;
     tracking.blocked = std::move(blocked);
+    tracking.writer = tracking.spraying ? std::optional(writer) : std::nullopt;
   }
 
   Config config;
@@ -129,6 +131,7 @@ struct PumpController::Impl {
   std::array<bool, 2> no_current{};
   double run_s = 0.0, sprayed_l = 0.0;
   bool run_exhausted = false;
+  Writer writer = Writer::Program;  ///< of the newest setpoint
   std::optional<Stamp> last_tick;
   mutable Mutex mutex;  ///< models, sprayed_l and tracking
   PumpTracking tracking;

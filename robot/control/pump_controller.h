@@ -2,10 +2,12 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "common/config/config_archive.h"
 #include "common/core/clock.h"
+#include "robot/control/writer.h"
 #include "robot/hal/pumps.h"
 #include "robot/safety/stop_latch.h"
 
@@ -15,6 +17,8 @@ struct PumpSetpoint {
   Stamp stamp;
   Duration ttl = std::chrono::milliseconds(200);
   std::array<double, 2> duty{};  ///< 0..1, left and right
+  Writer writer = Writer::Program;
+  [[nodiscard]] bool rests() const { return duty[0] == 0.0 && duty[1] == 0.0; }
 };
 
 /// Litres are a pump model times time: there is no flow sensor; every figure is an estimate.
@@ -30,6 +34,7 @@ struct PumpTracking {
   bool heartbeat_lost = false;
   bool spraying = false;
   std::string blocked;
+  std::optional<Writer> writer;  ///< as of BaseTracking
 };
 
 /// Feeds the pump heartbeat, cuts the pumps on STOP, stale setpoints and too long a run, counts

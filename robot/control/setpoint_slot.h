@@ -7,14 +7,17 @@
 
 #include <fmt/format.h>
 
+#include "common/core/check.h"
 #include "common/core/mutex.h"
 #include "common/core/stamp.h"
+#include "robot/control/writer.h"
 
 namespace kiln {
 
 /// The newest setpoint of one controller and the rules that all of them share: refused ones void
-/// the one before, older stamps than the newest are dropped, too old or future ones mean stop.
-/// Thread-safe.
+/// the one before, older stamps than the newest are dropped, too old or future ones mean stop. One
+/// writer at a time: a second one may ask for motion when the first has asked for rest or was
+/// silent for its ttl; anything else is our own bug. Thread-safe.
 template <class Setpoint>
 class SetpointSlot {
  public:
@@ -22,11 +25,18 @@ class SetpointSlot {
     std::optional<Setpoint> setpoint;  ///< nullopt: stop
     std::string blocked;               ///< why there is none
     bool refused = false;
+    /// Whose motion it is; nullopt: nobody's.
+    [[nodiscard]] std::optional<Writer> writer() const {
+      return setpoint && !setpoint->rests() ? std::optional(setpoint->writer) : std::nullopt;
+    }
   };
 
   void put(const Setpoint& setpoint) {
     const std::lock_guard lock(mutex_);
     if (newest_ && setpoint.stamp < newest_->stamp) return;  // re-ordered on the way
+    KILN_CHECK(!newest_ || newest_->writer == setpoint.writer || newest_->rests() ||
+                   setpoint.rests() || setpoint.stamp - newest_->stamp >= newest_->ttl,
+               "an actuator has one writer at a time");
     newest_ = setpoint;
     refusal_.clear();
   }

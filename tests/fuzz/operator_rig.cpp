@@ -59,7 +59,13 @@ std::optional<CommandAck> OperatorRig::execute(const Authority::Accepted& accept
   const Mode mode = parts_->host.mode();
   const std::uint64_t step = parts_->machine.checkpoint().step;
   if (letsGo(command.body)) asleep_ = machine_asleep_ = false;
+  const bool macro_ran = parts_->runner.running();
   auto ack = parts_->control.execute(accepted, at);
+  if (parts_->runner.running() && !macro_ran) {
+    arm_writer_ = pumps_writer_ = Writer::Program;
+    for (Press& press : presses_)  // what else is held ends
+      press.over = press.over || (press.last && holdKind(press.body) != HoldKind::Macro);
+  }
   if (!ack || ack->outcome != AckOutcome::Done) return ack;
   const auto* change = std::get_if<ChangeState>(&command.body);
   if (change && change->step != step) breaks("5: a command of an old step has an effect");
@@ -79,6 +85,7 @@ void OperatorRig::tick(bool heard) {
     pumps_.advance();
     parts_->tickControllers(now());
   }
+  judgeWriters();
   Parts& p = *parts_;
   if (std::exchange(p.people.asked, false)) {
     p.base.resetOdometry();
@@ -129,6 +136,7 @@ bool OperatorRig::letsGo(const CommandBody& body) const {
 
 void OperatorRig::judgeMachineWrite() {
   worked_.insert(parts_->machine.checkpoint().step);
+  base_writer_ = arm_writer_ = pumps_writer_ = Writer::Program;
   const MissionHost& host = parts_->host;
   if (host.phase() != MissionPhase::Running) breaks("1: a machine that is held writes a setpoint");
   if (stop_unseen_) return;  // the controllers see it
@@ -154,9 +162,14 @@ void OperatorRig::judgeSetpoint(const Command& command) {
   if (toSeconds(now() - command.issued) > 0.3) breaks("5: a late setpoint moves something");
   if (parts_->host.mode() != Mode::Teleop) breaks("2: a hand moves something outside Teleop");
   const HoldKind kind = *holdKind(command.body);
+  if (kind == HoldKind::BaseJog) base_writer_ = Writer::Hand;
+  if (kind == HoldKind::ArmJog) arm_writer_ = Writer::Hand;
+  if (kind == HoldKind::Actuator) pumps_writer_ = Writer::Hand;
   if (kind == HoldKind::BaseJog) base_asked_ = now();
   if (kind == HoldKind::ArmJog || kind == HoldKind::Macro) arm_asked_ = now();
   if (kind == HoldKind::Actuator || kind == HoldKind::Macro) pumps_asked_ = now();
+  asleep_ = false;  // it was pressed since: a STOP ends every press
+  if (command.client_id == "ben" && other_over_) breaks("5: a press that was over moves something");
   if (command.client_id != "ann" || command.press == 0) return;
   Press& press = presses_[command.press - 1];
   const std::uint64_t epoch = parts_->authority.epoch().value();
@@ -170,7 +183,6 @@ void OperatorRig::judgeSetpoint(const Command& command) {
   press.lease = lease.epoch;
   press.epoch = epoch;
   press.obeyed = true;
-  asleep_ = false;  // it was pressed since: a STOP ends every press
   for (std::size_t i = 0; i + 1 < command.press; ++i)
     if (holdKind(presses_[i].body) == kind) presses_[i].over = true;
 }
@@ -200,6 +212,17 @@ void OperatorRig::judgePresses() {
       press.over = true;
     press.sent = press.obeyed = false;
   }
+}
+
+/// The controllers follow who wrote last, and say so.
+void OperatorRig::judgeWriters() {
+  const Parts& p = *parts_;
+  const auto lies = [](const std::optional<Writer>& said, Writer wrote) {
+    return said && *said != wrote;
+  };
+  if (lies(p.base.tracking().writer, base_writer_) || lies(p.arm.tracking().writer, arm_writer_) ||
+      lies(p.pumps.tracking().writer, pumps_writer_))
+    breaks("2: an actuator follows another writer than the last one");
 }
 
 /// Everything that moves does so because somebody asks for it now, or did a moment ago.

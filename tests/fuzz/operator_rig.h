@@ -35,7 +35,7 @@ enum class Act : std::uint8_t {
   Again,        ///< the newest press goes on
   OldPress,     ///< the press before it goes on
   OldLeaseJog,
-  OtherJogs,  ///< the other operator, without the lease
+  OtherJogs,  ///< the other operator, always the same press
   LateJog,    ///< 0.5 s on its way
   Replay,     ///< the newest command once more
   Release,
@@ -99,7 +99,7 @@ class OperatorRig final : Authority::Handler {
     bool sent = false;    ///< in this tick, in good time and by who holds the lease
     bool obeyed = false;  ///< in this tick
     std::uint64_t released = ~std::uint64_t{0};  ///< number of the command
-    std::optional<Stamp> last;                   ///< obeyed
+    std::optional<Stamp> last{};                 ///< obeyed
     std::uint64_t lease = 0, epoch = 0;
   };
 
@@ -134,6 +134,7 @@ class OperatorRig final : Authority::Handler {
   [[nodiscard]] bool letsGo(const CommandBody& body) const;
   void judgeMachineWrite();
   void judgeTick();
+  void judgeWriters();
   void judgePresses();
   void judgeMotion();
   void judgeCounters();
@@ -149,7 +150,8 @@ class OperatorRig final : Authority::Handler {
   std::vector<Sent> batch_;
   std::optional<Sent> newest_;
   std::uint64_t nonce_ = 0;
-  std::vector<Press> presses_;  ///< press number - 1
+  std::vector<Press> presses_;                    ///< press number - 1
+  bool other_sent_ = false, other_over_ = false;  ///< the one press of the other operator
   bool ready_ = true, located_ = true, sees_ = true, slow_ = false;
   bool other_stop_ = false;  ///< comes while a clear is carried out
   bool late_stop_ = false;   ///< comes after the commands of this tick
@@ -165,8 +167,10 @@ class OperatorRig final : Authority::Handler {
   bool machine_asleep_ = false;  ///< held, and neither started nor resumed since
   Stamp asleep_since_;
   Stamp base_asked_, arm_asked_, pumps_asked_;  ///< last time that somebody might move it
-  Vector6d q_;                                  ///< measured
-  Pose2 X_map_base_;                            ///< true
+  Writer base_writer_ = Writer::Program, arm_writer_ = Writer::Program,
+         pumps_writer_ = Writer::Program;
+  Vector6d q_;        ///< measured
+  Pose2 X_map_base_;  ///< true
 };
 
 }  // namespace kiln

@@ -83,6 +83,7 @@ void OperatorRig::stopBy(const char* who) {
   asleep_ = machine_asleep_ = true;
   asleep_since_ = now();
   for (Press& press : presses_) press.over = true;
+  other_over_ = other_over_ || other_sent_;
 }
 
 void OperatorRig::force(const char* to, std::uint64_t steps_back) {
@@ -152,6 +153,7 @@ void OperatorRig::giveCommand(Act act) {
       break;
     case Act::OtherJogs:
       send(JogBase{{0.3, 0, 0}}, 1, "ben");
+      other_sent_ = true;
       break;
     case Act::LateJog:
       press(JogBase{{0.3, 0, 0}});
@@ -245,6 +247,7 @@ void OperatorRig::giveEvent(Act act) {
 /// operators start anew.
 void OperatorRig::killAndResume() {
   tick();
+  tick();  // one of the tick before may be a late STOP
   if (saved_.empty()) return;
   const auto checkpoint = decodeCheckpoint(saved_, "saved");
   if (!checkpoint) return breaks("7: the checkpoint cannot be read");
@@ -262,6 +265,7 @@ void OperatorRig::killAndResume() {
   batch_.clear();
   newest_.reset();
   presses_.clear();
+  other_sent_ = other_over_ = false;
 }
 
 }  // namespace kiln

@@ -147,6 +147,8 @@ TEST_F(OperatorSequence, FoundOnesStayMended) {
   for (const char* text : {
            // A gentle ramp took over from the one of a time-out and carried the base backwards.
            "--start: AcquireLease, 20 Tick, Teleop, 13 Tick, ForceDone, HoldPumps, LinkGap, 8 Tick",
+           // A macro began under a jog that was still held: two writers of the arm.
+           "AcquireLease, Teleop, JogArm, HoldMacro",
            // A state that was forced while held was not counted when a kill came in between.
            "--start: AcquireLease, Pause, ForceWork, KillAndResume, AcquireLease, Resume",
        }) {

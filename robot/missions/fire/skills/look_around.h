@@ -22,7 +22,8 @@ class LookAround {
   /// Failed: no rectangle can be reached ("unreachable"), or the arm's own reason ("contact", ...).
   [[nodiscard]] SkillStatus poll(Stamp now);
   void cancel();
-  /// True once the arm has arrived at the first corner: only now do images count.
+  /// The arm has arrived at the first corner. Images count on the way there too: a source seen from
+  /// anywhere is seen (HeatWatch).
   [[nodiscard]] bool sweeping() const { return stage_ == Stage::Sweep || stage_ == Stage::Corners; }
 
  private:

@@ -46,6 +46,30 @@ TEST(Preflight, PassesAHealthyRobot) {
   }
 }
 
+TEST(Preflight, NamesASilentDevice) {
+  PreflightInputs in = healthy();
+  EXPECT_EQ(silentDevice(in, {}), "");
+  in.arm_age_s.reset();
+  EXPECT_EQ(silentDevice(in, {}), "no state of the arm yet");
+  in.base_age_s = 1.25;
+  EXPECT_EQ(silentDevice(in, {}), "no state of the base for 1.2 s");
+  in = healthy();
+  in.pumps_age_s.reset();
+  EXPECT_EQ(silentDevice(in, {}), "no state of the pumps yet");
+  in.has_pumps = false;
+  EXPECT_EQ(silentDevice(in, {}), "");
+}
+
+TEST(Preflight, NamesWhoWritesEachActuator) {
+  const std::vector<ActuatorWriter> actuators{
+      {"base", Writer::Program}, {"arm", Writer::Hand}, {"pumps", std::nullopt}};
+  const Check mission = writersCheck(actuators, Mode::Autonomous);
+  EXPECT_EQ(mission.detail, "base: mission, arm: teleop, pumps: nobody");
+  EXPECT_TRUE(mission.ok);
+  EXPECT_EQ(writersCheck(actuators, Mode::Teleop).detail,
+            "base: macro, arm: teleop, pumps: nobody");
+}
+
 TEST(Preflight, NamesTheDevicesThatTheMissionLacks) {
   PreflightInputs in = healthy();
   in.lacking = {DeviceKind::Pumps, DeviceKind::ThermalCamera};

@@ -24,6 +24,17 @@ struct Devices {
   }
 };
 
+TEST(Standstill, ASpeedOfSilentWheelsIsUnknown) {
+  Devices devices;
+  const Twist2 measured{0.5, 0, 0.1};
+  EXPECT_EQ(knownTwist(measured, devices.base, devices.now).vx_mps, 0.5);
+  const Stamp later = devices.now + milliseconds(150);
+  const Twist2 unknown = knownTwist(measured, devices.base, later);
+  EXPECT_TRUE(std::isnan(unknown.vx_mps) && std::isnan(unknown.vy_mps) &&
+              std::isnan(unknown.wz_radps));
+  EXPECT_TRUE(std::isnan(knownTwist(measured, std::nullopt, devices.now).vx_mps));
+}
+
 TEST(Standstill, IsProvenByFreshFiniteMeasurementsOfAllThree) {
   Devices resting;
   EXPECT_TRUE(resting.status().standstill_proven);

@@ -204,6 +204,21 @@ TEST_F(BaseControllerTest, AReorderedSetpointDoesNotReplaceANewerOne) {
   EXPECT_GT(controller.tracking().commanded.vx_mps, 0.0);
 }
 
+TEST_F(BaseControllerTest, HasOneWriterAtATimeAndNamesIt) {
+  drive({0.3, 0, 0}, 0.1);
+  EXPECT_EQ(controller.tracking().writer, Writer::Program);
+  const BaseSetpoint by_hand{.stamp = clock.now(), .twist = {0.1, 0, 0}, .writer = Writer::Hand};
+  EXPECT_DEATH(controller.setpoint(by_hand), "one writer at a time");
+  controller.setpoint({.stamp = clock.now(), .twist = {}});  // a rest hands over
+  controller.setpoint(by_hand);
+  tick();
+  EXPECT_EQ(controller.tracking().writer, Writer::Hand);
+  idle(0.3);
+  EXPECT_EQ(controller.tracking().writer, std::nullopt) << "silence is nobody's";
+  drive({0.3, 0, 0}, 0.1);
+  EXPECT_EQ(controller.tracking().writer, Writer::Program);
+}
+
 TEST_F(BaseControllerTest, ReversesThroughZeroWithoutDrivingOnCrossedWheels) {
   drive({0.5, 0, 0}, 2.0);
   drive({0, -0.5, 0}, 3.0);
