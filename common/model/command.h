@@ -17,6 +17,7 @@ enum class ClientRole : std::uint8_t { Viewer, Operator, Supervisor };
 enum class Mode : std::uint8_t { None, Autonomous, Supervised, Teleop, Stopped };
 
 // --- discrete commands: acknowledged, age limit 1 s (transitions 2 s)
+// -------------------------------------------
 struct AcquireLease {
   bool take_over = false;
 };
@@ -65,7 +66,8 @@ struct MissionCommand {
   std::vector<Argument> arguments;
 };
 
-// --- hold-to-run setpoints: streamed at 25 Hz, never acknowledged when fine, refused at 300 ms
+// --- hold-to-run setpoints: streamed at 25 Hz, never acknowledged when fine, refused at 300 ms of
+// age -----------
 enum class JogFrame : std::uint8_t { Joint, Tool, Base };
 struct JogBase {
   Twist2 twist;

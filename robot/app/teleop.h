@@ -25,7 +25,7 @@ class Teleop {
     double max_tool_speed_mps = 0.25;
     double max_tool_rate_radps = 0.6;
     double max_joint_rate_radps = 0.6;
-    double guard_force_n = 80.0;
+    double guard_force_n = 50.0;
     double look_ahead_s = 0.3;  ///< a jog is judged by where the arm would be then
     double clearance_m = 0.03;  ///< nearer only when it leads away
     double damping = 0.05;      ///< of the Cartesian inverse near singularities

@@ -11,6 +11,7 @@
 namespace kiln::fsm_detail {
 
 // ---- reading the options of a state
+// ------------------------------------------------------------------------------
 struct None {};
 
 template <template <class> class Option, class List>
@@ -39,6 +40,7 @@ template <class T>
 inline constexpr bool kIsGiven = !std::is_same_v<T, None>;
 
 // ---- the graph
+// -----------------------------------------------------------------------------------------------------
 template <class... States>
 struct Graph {
   static constexpr std::size_t kCount = sizeof...(States);
@@ -79,6 +81,7 @@ struct Graph {
 };
 
 // ---- checks
+// ----------------------------------------------------------------------------------------------------------
 template <class S, class Target, class All>
 struct CheckListedStateIsInMachine {
   static_assert(kListed<Target, All>,

@@ -30,8 +30,8 @@ std::array<LinkInertia, 6> linkInertias(const UrKinematics& k) {
 // Collision bits: 1 arena, 2 chassis and arm, 4 wheels. Wheels meet the arena alone: they sit
 // inside the chassis box.
 constexpr const char* kArenaBits = R"(contype="1" conaffinity="0")";
-// Foam: pushes back little at first and more over 10 cm. A motion of 0.5 m/s under a guard of 60 N
-// then stops before the 150 N of a protective stop.
+// Foam: pushes back little at first and more over 10 cm. A motion of 0.5 m/s under a guard of 40 N
+// then stops before the 100 N of a protective stop.
 constexpr const char* kPadding = R"(solref="0.1 1" solimp="0.02 0.5 0.1")";
 constexpr const char* kRobotBits = R"(contype="2" conaffinity="3")";
 constexpr const char* kWheelBits = R"(contype="4" conaffinity="1")";

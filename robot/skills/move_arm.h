@@ -31,7 +31,7 @@ class MoveArm final : public ArmMotion {
     double speed_scale = 0.3;  ///< of the joint limits
     double cartesian_speed_mps = 0.25;
     double cartesian_accel_mps2 = 0.5;
-    double guard_force_n = 60.0;
+    double guard_force_n = 40.0;
     double clearance_m = 0.03;  ///< to base, tanks, scene and itself
     double joint_accel_radps2 = 2.0;
     double jerk_time_s = 0.12;        ///< ramp of the acceleration

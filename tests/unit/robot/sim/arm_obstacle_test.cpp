@@ -12,7 +12,7 @@ namespace kiln::sim {
 namespace {
 
 constexpr double kPeriod = 0.008;
-constexpr double kGuard_n = 60.0;  // MoveArm::Config::guard_force_n
+constexpr double kGuard_n = 40.0;  // MoveArm::Config::guard_force_n
 
 /// The robot's own arm controller on the simulated arm: one control tick every 8 ms, setpoints at
 /// 50 Hz.
@@ -125,7 +125,7 @@ TEST_F(ArmObstacleTest, AGuardedMotionMeetsItAndStopsWithoutAProtectiveStop) {
     EXPECT_FALSE(collisions.empty());
     for (const Collision& collision : collisions) {
       EXPECT_EQ(collision.b, "obstacle") << collision.a;
-      EXPECT_LT(collision.force_n, 150.0) << collision.a;
+      EXPECT_LT(collision.force_n, 100.0) << collision.a;
     }
   }
 }
