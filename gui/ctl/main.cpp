@@ -117,7 +117,7 @@ void addPlaces(CLI::App& app, Request& request) {
   pose->callback([&request] {
     request.run = [&request](Console& console) {
       const auto& [x, y, yaw_deg] = request.base;
-      return kiln::ctl::commandWithControl(console, kiln::SetPose{{x, y, yaw_deg * kDeg}});
+      return kiln::ctl::commandWithControl(console, kiln::SetPose{{x, y, yaw_deg * kiln::kDeg}});
     };
   });
   app.add_subcommand("mission", "what the mission brings: figures, commands, actuators")
