@@ -21,17 +21,27 @@ struct Outcome {
   std::string text;
 };
 
-/// One data packet of a VLP-16 (manual, section 9.2): twelve blocks, strongest return.
-std::string lidarPacket() {
-  std::string packet(1206, '\0');
-  for (std::size_t block = 0; block < 12; ++block) {
-    packet[100 * block] = '\xFF';
-    packet[100 * block + 1] = '\xEE';
-    packet[100 * block + 2] = static_cast<char>(10 * block);
+/// Two revolutions of a VLP-16 (manual, section 9.2: twelve blocks, strongest return) that sees
+/// nothing.
+std::string lidarPackets() {
+  constexpr int kPackets = 160, kBlocks = 12, kStep_cdeg = 40, kPeriod_us = 1327;
+  const auto put = [](std::string& to, std::size_t at, std::uint32_t value, std::size_t bytes) {
+    for (std::size_t i = 0; i < bytes; ++i) to[at + i] = static_cast<char>(value >> (8 * i));
+  };
+  std::string all;
+  for (int k = 0; k < kPackets; ++k) {
+    std::string packet(1206, '\0');
+    for (int block = 0; block < kBlocks; ++block) {
+      const auto at = static_cast<std::size_t>(100 * block);
+      put(packet, at, 0xEEFF, 2);
+      put(packet, at + 2, static_cast<std::uint32_t>((k * kBlocks + block) * kStep_cdeg % 36000),
+          2);
+    }
+    put(packet, 1200, static_cast<std::uint32_t>(k * kPeriod_us), 4);
+    put(packet, 1204, 0x2237, 2);
+    all += packet;
   }
-  packet[1204] = '\x37';
-  packet[1205] = '\x22';
-  return packet;
+  return all;
 }
 
 class CommandLine : public testing::Test {
@@ -125,7 +135,7 @@ TEST_F(CommandLine, APipeADeviceAndAFolderAreNoFiles) {
       const Outcome out = run(argv);
       EXPECT_EQ(out.status, 2) << source.front() << " " << path << ": " << out.text;
     }
-    const std::string capture = write("raw", lidarPacket());
+    const std::string capture = write("raw", lidarPackets());
     const Outcome map = run({"kiln-robotd", "--lidar", capture, "--set", "localization.map=" + path,
                              "--state-dir", state, "--listen", "ipc://" + scratch_.file("link")});
     EXPECT_EQ(map.status, 2) << path << ": " << map.text;
@@ -133,7 +143,7 @@ TEST_F(CommandLine, APipeADeviceAndAFolderAreNoFiles) {
 }
 
 TEST_F(CommandLine, AReportReplacesRegularFilesOnly) {
-  const std::string capture = write("raw", lidarPacket());
+  const std::string capture = write("raw", lidarPackets());
   const std::string pipe = scratch_.file("pipe");
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
   const Outcome out =
@@ -147,7 +157,7 @@ TEST_F(CommandLine, AReportReplacesRegularFilesOnly) {
 }
 
 TEST_F(CommandLine, AnArenaThatStatesNoFenceIsRefusedByName) {
-  const std::string capture = write("raw", lidarPacket());
+  const std::string capture = write("raw", lidarPackets());
   for (const char* text : {"{}\n", "name: kitchen\n", ""}) {
     const std::string arena = write("arena.yaml", text);
     const Outcome out =

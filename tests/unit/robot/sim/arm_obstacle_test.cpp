@@ -100,6 +100,7 @@ struct Motion {
   const char* what;
   std::initializer_list<double> change_deg;
   double duration_s;
+  double limit_n = 100.0;  ///< of the reduced zones, where the robot moves like this
 };
 
 constexpr std::initializer_list<double> kUnfold_deg = {0, 60, -60, 0, 0, 0};
@@ -108,7 +109,7 @@ constexpr std::initializer_list<double> kUnfold_deg = {0, 60, -60, 0, 0, 0};
 TEST_F(ArmObstacleTest, AGuardedMotionMeetsItAndStopsWithoutAProtectiveStop) {
   for (const Motion& motion :
        {Motion{"reaching", {0, 30, -30, 0, 0, 0}, 3.0}, Motion{"turning", {60, 0, 0, 0, 0, 0}, 4.0},
-        Motion{"fast", {60, 0, 0, 0, 0, 0}, 2.5},
+        Motion{"fast", {60, 0, 0, 0, 0, 0}, 2.5, 150.0},
         Motion{"withdrawing", {0, -50, 50, 0, 0, 0}, 4.0}}) {
     SCOPED_TRACE(motion.what);
     make("arm_obstacle@5");
@@ -125,7 +126,7 @@ TEST_F(ArmObstacleTest, AGuardedMotionMeetsItAndStopsWithoutAProtectiveStop) {
     EXPECT_FALSE(collisions.empty());
     for (const Collision& collision : collisions) {
       EXPECT_EQ(collision.b, "obstacle") << collision.a;
-      EXPECT_LT(collision.force_n, 100.0) << collision.a;
+      EXPECT_LT(collision.force_n, motion.limit_n) << collision.a;
     }
   }
 }
