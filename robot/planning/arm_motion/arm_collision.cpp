@@ -13,8 +13,8 @@ constexpr double kMinStep = 0.004;  // m; shortest stride of the path check
 constexpr double kFar_m = 1e3;      // the ground goes on
 constexpr int kFlangeLink = 7;      // what is fixed to the flange, after the six links
 
-/// Neighbours touch by design, along the wrist also the neighbours' neighbours. @pre first <=
-/// second
+/// Neighbours touch by design, along the wrist also the neighbours' neighbours. Asked in one order:
+/// false when `first` is the later link.
 bool canMeet(int first, int second) {
   const int apart = second - std::max(first, 1);
   return apart > 2 || (apart == 2 && first <= 2);

@@ -20,6 +20,7 @@
 namespace kiln::gui {
 namespace {
 
+// The rhythm of a hand, part of what is tried: nothing is awaited in it. An answer has a limit.
 constexpr int kSettle_ms = 30, kAnswer_ms = 600;
 
 /// Whether a press on one control is alive, told from the events that reach it alone.
@@ -72,12 +73,11 @@ class HoldEventsTest : public testing::Test {
     open();
     link.open();
     link.runByTimer();
-    QTest::qWait(300);
+    ASSERT_TRUE(QTest::qWaitFor([this] { return models.status.status() != nullptr; }));
     models.lease.request();
-    QTest::qWait(300);
+    ASSERT_TRUE(QTest::qWaitFor([this] { return models.lease.mine(); }));
     models.commands.send(SetMode{Mode::Teleop}, "teleop");
-    QTest::qWait(500);
-    EXPECT_TRUE(models.mayJog());
+    ASSERT_TRUE(QTest::qWaitFor([this] { return models.mayJog(); }));
   }
   ~HoldEventsTest() override { hand.release(); }
 
