@@ -16,8 +16,8 @@ enum class ClientRole : std::uint8_t { Viewer, Operator, Supervisor };
 
 enum class Mode : std::uint8_t { None, Autonomous, Supervised, Teleop, Stopped };
 
-// --- discrete commands: acknowledged, age limit 1 s (transitions 2 s)
-// -------------------------------------------
+// --- discrete commands: acknowledged, age limit 1 s (transitions 2 s) ---------------------------
+
 struct AcquireLease {
   bool take_over = false;
 };
@@ -31,8 +31,8 @@ struct ChangeState {
   std::string to;
 };
 struct SetMode {
-  Mode mode = Mode::Autonomous;
-};  ///< Autonomous, Supervised or Teleop
+  Mode mode = Mode::Autonomous;  ///< or Teleop, or Supervised where it is offered
+};
 /// Ends the STOP that the operator saw (StopStatus::generation); a newer one stays.
 struct ClearStop {
   std::uint64_t generation = 0;
@@ -40,15 +40,16 @@ struct ClearStop {
 struct ReleaseProtectiveStop {};
 struct ResetRobot {};  ///< competition reset: robot is carried back to its start
 struct SetSpeedScale {
-  double scale = 0.35;
-};  ///< 0..1, teleop
+  double scale = 0.35;  ///< 0..1, teleop
+};
 struct CancelMacro {};
 struct AcknowledgeAlarm {
   std::string id;
 };
+/// Moves nothing: needs no lease.
 struct SetRecording {
   bool on = true;
-};  ///< moves nothing: needs no lease
+};
 
 /// The operator's word where the robot stands, in `map`. Refused while a mission runs unpaused and
 /// while the base moves. The localisation takes it as a prior with the scatter of a start pose.
@@ -66,16 +67,16 @@ struct MissionCommand {
   std::vector<Argument> arguments;
 };
 
-// --- hold-to-run setpoints: streamed at 25 Hz, never acknowledged when fine, refused at 300 ms of
-// age -----------
+// --- hold-to-run setpoints: streamed at 25 Hz, never acknowledged when fine, refused at 300 ms ---
+
 enum class JogFrame : std::uint8_t { Joint, Tool, Base };
 struct JogBase {
-  Twist2 twist;
-};  ///< base frame; clamped on the robot
+  Twist2 twist;  ///< base frame; clamped on the robot
+};
 struct JogArm {
   JogFrame frame = JogFrame::Base;
-  Vector6d velocity = Vector6d::Zero();
-};  ///< rad/s, or m/s + rad/s
+  Vector6d velocity = Vector6d::Zero();  ///< rad/s, or m/s + rad/s
+};
 /// Runs something of the robot (MissionInfo::actuators) while held; 0 is the release.
 struct HoldActuator {
   std::string name;
@@ -116,8 +117,8 @@ struct CommandAck {
   std::uint64_t nonce = 0;
   std::string command;
   AckOutcome outcome = AckOutcome::Accepted;
-  std::string
-      code;  ///< machine-readable: "no_lease", "too_old", "wrong_mode", "replayed", "moved", ...
+  /// Machine-readable: "no_lease", "too_old", "wrong_mode", "replayed", "moved", ...
+  std::string code;
   std::string reason;  ///< one sentence: what, why, what to do
   std::string lease_holder;
   std::uint64_t lease_epoch = 0;  ///< the lease just granted (acquire_lease), else 0

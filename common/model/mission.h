@@ -22,6 +22,7 @@ struct FigureSpec {
   bool top_bar = false;    ///< important enough for the top bar
   bool plot = false;       ///< drawn over time
   std::string doc{};       ///< one sentence for the tooltip and kilnctl
+  bool operator==(const FigureSpec&) const = default;
 };
 struct Figure {
   std::string id;
@@ -36,6 +37,7 @@ struct Figure {
 struct LayerSpec {
   std::string id;     ///< "fire.places"
   std::string label;  ///< "Fire places"
+  bool operator==(const LayerSpec&) const = default;
 };
 
 /// How much an operator must do to give a command (console.md item 14, classes A to D).
@@ -46,6 +48,7 @@ struct ArgumentSpec {
   std::string unit;  ///< "deg"
   double low = 0.0, high = 0.0;
   std::string doc{};
+  bool operator==(const ArgumentSpec&) const = default;
 };
 
 /// A command of one mission, so described that the gate can judge it and a station can offer it.
@@ -59,6 +62,7 @@ struct CommandSpec {
   bool needs_live = false;     ///< only while the mission is running or held
   std::string target{};        ///< what it is given to: "place"; empty: to nothing
   std::vector<ArgumentSpec> arguments{};
+  bool operator==(const CommandSpec&) const = default;
 };
 
 /// Something that runs while it is held (HoldActuator).
@@ -66,6 +70,7 @@ struct ActuatorSpec {
   std::string name;  ///< "pumps"
   std::string text;
   double low = 0.0, high = 1.0;
+  bool operator==(const ActuatorSpec&) const = default;
 };
 
 inline constexpr const char* kPumps = "pumps";  ///< both at once
@@ -82,7 +87,7 @@ struct MissionInfo {
   std::vector<CommandSpec> commands;
   std::vector<ActuatorSpec> actuators;  ///< of the robot
   std::vector<std::string> panels;      ///< ids of the station's panels that belong to it
-  bool operator==(const MissionInfo&) const;
+  bool operator==(const MissionInfo&) const = default;
   [[nodiscard]] const CommandSpec* command(std::string_view name) const;    ///< nullptr: none
   [[nodiscard]] const ActuatorSpec* actuator(std::string_view name) const;  ///< nullptr: none
 };

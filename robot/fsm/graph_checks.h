@@ -10,8 +10,8 @@
 /// compiler's "in instantiation of ..." line names the state that is at fault.
 namespace kiln::fsm_detail {
 
-// ---- reading the options of a state
-// ------------------------------------------------------------------------------
+// ---- reading the options of a state ------------------------------------------------------------
+
 struct None {};
 
 template <template <class> class Option, class List>
@@ -39,8 +39,8 @@ inline constexpr bool kNeedsArguments = !std::is_default_constructible_v<S>;
 template <class T>
 inline constexpr bool kIsGiven = !std::is_same_v<T, None>;
 
-// ---- the graph
-// -----------------------------------------------------------------------------------------------------
+// ---- the graph ---------------------------------------------------------------------------------
+
 template <class... States>
 struct Graph {
   static constexpr std::size_t kCount = sizeof...(States);
@@ -80,8 +80,8 @@ struct Graph {
   static constexpr Reached toTerminal() { return close(Reached{kIsTerminal<States>...}, true); }
 };
 
-// ---- checks
-// ----------------------------------------------------------------------------------------------------------
+// ---- checks ------------------------------------------------------------------------------------
+
 template <class S, class Target, class All>
 struct CheckListedStateIsInMachine {
   static_assert(kListed<Target, All>,
