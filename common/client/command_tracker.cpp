@@ -1,5 +1,7 @@
 #include "common/client/command_tracker.h"
 
+#include <fmt/format.h>
+
 namespace kiln {
 namespace {
 
@@ -39,6 +41,8 @@ std::string_view toString(CommandState state) {
       return "cancelled";
     case CommandState::Unknown:
       return "unknown";
+    case CommandState::NotSent:
+      return "not sent";
   }
   return "?";
 }

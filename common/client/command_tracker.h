@@ -3,7 +3,8 @@
 #include <map>
 #include <vector>
 
-#include "common/client/operator_session.h"
+#include "common/client/command_update.h"
+#include "common/model/command.h"
 #include "common/transport/monotonic.h"
 
 namespace kiln {

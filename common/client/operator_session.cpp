@@ -8,7 +8,6 @@
 #include "common/client/command_tracker.h"
 #include "common/client/hold_stream.h"
 #include "common/client/link_talk.h"
-#include "common/client/topic_dispatch.h"
 #include "common/core/text.h"
 #include "common/transport/station_end.h"
 #include "common/wire/command.h"
@@ -46,7 +45,14 @@ struct OperatorSession::Impl {
               config.role, config.expected_mission_uuid, randomKey()},
              config.degraded_after_s, config.lost_after_s),
         tracker(config.ack_timeout_s),
-        holds(config.setpoint_rate_hz, config.hold_ttl_s) {}
+        holds(config.setpoint_rate_hz, config.hold_ttl_s) {
+    auto& on_status = callbacks.topics.on<Topic::RobotStatus>();
+    on_status = [this, told = on_status](SharedValueOf<Topic::RobotStatus> status,
+                                         const Arrival& arrival) {
+      onStatus(*status);
+      if (told) told(std::move(status), arrival);
+    };
+  }
 
   // link thread
   void onMessage(std::string_view bytes);
@@ -191,8 +197,7 @@ void OperatorSession::Impl::onPublished(Topic topic, const FrameHeader& header,
       arrival.latency_s = toSeconds(arrival.received - stampFromNanoseconds(*sent));
     }
   }
-  const auto done = dispatch(topic, payload, callbacks, arrival,
-                             [this](const RobotStatus& status) { onStatus(status); });
+  const auto done = callbacks.topics.dispatch(topic, payload, arrival);
   if (!done) bad(done.error());
 }
 

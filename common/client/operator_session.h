@@ -7,16 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "common/client/command_update.h"
 #include "common/client/stop_caller.h"
+#include "common/client/topic_values.h"
 #include "common/core/clock.h"
 #include "common/core/error.h"
-#include "common/model/fsm.h"
 #include "common/model/link.h"
-#include "common/model/localization.h"
-#include "common/model/scene.h"
-#include "common/model/sensor.h"
-#include "common/model/status.h"
-#include "common/transport/topics.h"
 
 namespace kiln {
 
@@ -42,38 +38,10 @@ struct LinkReport {
       drops;  ///< lost between robot and here, by topic, plus what the robot dropped before
 };
 
-/// What became of one command. UNKNOWN: no answer within 1 s; it is never sent again by itself.
-enum class CommandState : std::uint8_t {
-  Sent,
-  Accepted,
-  Refused,
-  Done,
-  Failed,
-  Cancelled,
-  Unknown
-};
-[[nodiscard]] std::string_view toString(CommandState state);
-struct CommandUpdate {
-  std::uint64_t nonce = 0;
-  std::string command;  ///< "jog_base", ...
-  CommandState state = CommandState::Sent;
-  std::string code;  ///< of a refusal: "no_lease", "too_old", ...
-  std::string reason;
-  std::string lease_holder;
-  double answered_after_s = 0.0;
-};
-
 /// A client's lease as the session knows it.
 struct LeaseView {
   bool mine = false;
   std::uint64_t epoch = 0;  ///< of the present or, if not mine, the last lease
-};
-
-/// Age of received data: `robot_stamp` converted to station time through the clock estimate.
-struct Arrival {
-  Stamp received;                 ///< station time
-  double latency_s = 0.0;         ///< robot's publish -> here; 0 while the clock offset is unknown
-  std::uint64_t lost_before = 0;  ///< messages of this topic lost since the previous one
 };
 
 /// An operator's connection to one robot, without Qt: hello, lease, heartbeats, commands with acks,
@@ -109,20 +77,7 @@ class OperatorSession {
     std::function<void(const CommandUpdate&)> on_command;
     std::function<void(const StopReport&)> on_stop;
     std::function<void(const LeaseView&)> on_lease;  ///< when it changes
-    std::function<void(const RobotStatus&, const Arrival&)> on_status;
-    std::function<void(const FsmInfo&, const Arrival&)> on_fsm_info;
-    std::function<void(const FsmStatus&, const Arrival&)> on_fsm_status;
-    std::function<void(const MissionInfo&, const Arrival&)> on_mission_info;
-    std::function<void(const Scene&, const Arrival&)> on_scene;
-    std::function<void(const LocalizationStatus&, const Arrival&)> on_localization;
-    std::function<void(const Trajectory&, const Arrival&)> on_trajectory;
-    std::function<void(std::shared_ptr<const MapLayer>, const Arrival&)> on_map_layer;
-    std::function<void(const std::vector<MacroInfo>&, const Arrival&)> on_macros;
-    std::function<void(const LogBatch&, const Arrival&)> on_log;
-    std::function<void(PointCloudPtr, const Arrival&)> on_cloud;
-    std::function<void(ThermalImagePtr, const Arrival&)> on_thermal;
-    std::function<void(const MissionDetail&, const Arrival&)> on_mission_stream;
-    std::function<void(JpegImagePtr, const Arrival&)> on_jpeg;  ///< frame says which camera
+    TopicSubscribers topics;
     /// A message that could not be decoded: counted, named, dropped.
     std::function<void(const Error&)> on_bad_message;
   };

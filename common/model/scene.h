@@ -48,9 +48,11 @@ struct SceneItem {
     Polyline,  ///< `points`
     Box,  ///< its twelve edges, seen through everything: X_map_item is its centre, `size` whole
     Estimate,  ///< a point that was estimated: X_map_item's origin, `covariance` as an ellipsoid
-    Text       ///< label alone, at X_map_item's origin
+    Text,      ///< label alone, at X_map_item's origin
+    Arrow,     ///< along `points`, its head at the last one
+    Cylinder   ///< upright in X_map_item, its centre; `size` x and y: diameters, z: height
   };
-  std::string id;     ///< of its kind in the layer
+  std::string id;     ///< of its kind in the layer; what a click on it names
   std::string layer;  ///< LayerSpec::id
   Shape shape = Shape::Polyline;
   ItemStyle style = ItemStyle::Normal;

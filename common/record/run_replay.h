@@ -21,7 +21,7 @@ struct RunInfo {
 [[nodiscard]] RunInfo runInfo(const RecordReader& reader);
 
 /// A recorded run as a station would have seen it: what the robot published, as the very wire
-/// messages (wire::decode... and dispatch() of common/client take them), under a player's control.
+/// messages (TopicSubscribers of common/client takes them), under a player's control.
 /// Example, on the station's link thread:
 ///   auto replay = RunReplay::open(path, wall_clock);
 ///   replay->player().play();

@@ -16,6 +16,7 @@
 namespace kiln {
 namespace {
 
+constexpr int kLastWords_ms = 50;  // a closing client's releases
 constexpr std::size_t kSendQueue = 64;
 constexpr std::size_t kMostDelayed = 256;
 constexpr int kStatusHwm = 64;
@@ -28,9 +29,10 @@ constexpr std::int64_t kMaxStreamBytes = 16 << 20;
 struct StationEnd::Impl {
   explicit Impl(Options opts)
       : options(std::move(opts)),
-        commands(context, SocketKind::Dealer, {64, 64, 64 << 10, options.client_id}),
-        status(context, SocketKind::Sub, {kSubscriptionsHwm, kStatusHwm, kMaxStreamBytes, ""}),
-        streams(context, SocketKind::Sub, {kSubscriptionsHwm, kStreamsHwm, kMaxStreamBytes, ""}),
+        commands(context, SocketKind::Dealer,
+                 {.routing_id = options.client_id, .linger_ms = kLastWords_ms}),
+        status(context, SocketKind::Sub, {kSubscriptionsHwm, kStatusHwm, kMaxStreamBytes}),
+        streams(context, SocketKind::Sub, {kSubscriptionsHwm, kStreamsHwm, kMaxStreamBytes}),
         random(options.faults.seed) {}
 
   void run(std::stop_token stop);

@@ -73,7 +73,8 @@ StopServer::~StopServer() {
 }
 
 struct StopClient::Impl {
-  explicit Impl(Handlers h) : handlers(std::move(h)), socket(context, SocketKind::Dealer, {}) {}
+  explicit Impl(Handlers h)
+      : handlers(std::move(h)), socket(context, SocketKind::Dealer, {.linger_ms = 50}) {}
   void run(std::stop_token stop);
   void repeat();
 

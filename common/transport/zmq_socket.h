@@ -16,7 +16,8 @@ namespace kiln {
 /// .cpp.
 class ZmqContext {
  public:
-  ZmqContext();
+  /// @param realtime  its own thread runs before all ordinary ones, where that is allowed.
+  explicit ZmqContext(bool realtime = false);
   ~ZmqContext();
   ZmqContext(const ZmqContext&) = delete;
   ZmqContext& operator=(const ZmqContext&) = delete;
@@ -33,10 +34,12 @@ struct SocketOptions {
   int receive_hwm = 64;
   std::int64_t max_message_bytes = 64 << 10;  ///< a peer that sends more is disconnected
   std::string routing_id;                     ///< Dealer only
+  int linger_ms = 0;                          ///< last words get so long
+  bool watch = false;                         ///< for lost()
 };
 
-/// A non-blocking connecting socket (the listening ones are ZmtpServer's); LINGER is 0 (50 ms for a
-/// Dealer), a Dealer queues for living connections only. Confined to one thread once in use.
+/// A non-blocking connecting socket (the listening ones are ZmtpServer's); a Dealer queues for
+/// living connections only. Confined to one thread once in use.
 class ZmqSocket {
  public:
   ZmqSocket(ZmqContext& context, SocketKind kind, const SocketOptions& options);
@@ -51,13 +54,19 @@ class ZmqSocket {
   [[nodiscard]] bool send(std::initializer_list<std::string_view> parts);
   /// A whole multipart message, or nullopt when none is waiting.
   [[nodiscard]] std::optional<std::vector<std::string>> receive();
+  /// Whether the connection closed since the last call. @pre SocketOptions::watch.
+  [[nodiscard]] bool lost();
   [[nodiscard]] void* handle() const { return handle_; }
 
  private:
+  friend void waitReadable(std::initializer_list<const ZmqSocket*> sockets, int wake_fd,
+                           int timeout_ms);
   void* handle_;
+  void* monitor_ = nullptr;
 };
 
-/// Waits until one of the sockets or `wake_fd` is readable, at most `timeout_ms`.
+/// Waits until one of the sockets or `wake_fd` is readable, or a watched connection closes, at most
+/// `timeout_ms`. @param wake_fd  < 0: none.
 void waitReadable(std::initializer_list<const ZmqSocket*> sockets, int wake_fd, int timeout_ms);
 
 }  // namespace kiln

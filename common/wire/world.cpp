@@ -45,7 +45,7 @@ void toProto(const SceneItem& item, v1::SceneItem& out) {
 }
 
 Result<SceneItem> fromProto(const v1::SceneItem& in) {
-  const auto shape = toEnum(in.shape(), SceneItem::Shape::Text, "shape of a scene item");
+  const auto shape = toEnum(in.shape(), SceneItem::Shape::Cylinder, "shape of a scene item");
   if (!shape) return tl::make_unexpected(shape.error());
   const auto style = toEnum(in.style(), ItemStyle::Intent, "style of a scene item");
   if (!style) return tl::make_unexpected(style.error());

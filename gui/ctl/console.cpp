@@ -24,22 +24,18 @@ Console::~Console() { session_.reset(); }
 
 OperatorSession::Callbacks Console::callbacks() {
   OperatorSession::Callbacks callbacks;
-  const auto keep = [this](auto& slot, const auto& value) {
-    const std::lock_guard lock(mutex_);
-    slot = value;
-    changed_.notify_all();
+  const auto keep = [this](auto& slot) {
+    return [this, &slot](const auto& value, const Arrival&) {
+      const std::lock_guard lock(mutex_);
+      slot = *value;
+      changed_.notify_all();
+    };
   };
-  callbacks.on_status = [this, keep](const RobotStatus& v, const Arrival&) { keep(status_, v); };
-  callbacks.on_fsm_status = [this, keep](const FsmStatus& v, const Arrival&) { keep(fsm_, v); };
-  callbacks.on_localization = [this, keep](const LocalizationStatus& v, const Arrival&) {
-    keep(localization_, v);
-  };
-  callbacks.on_macros = [this, keep](const std::vector<MacroInfo>& v, const Arrival&) {
-    keep(macros_, v);
-  };
-  callbacks.on_mission_info = [this, keep](const MissionInfo& v, const Arrival&) {
-    keep(mission_, v);
-  };
+  callbacks.topics.on<Topic::RobotStatus>() = keep(status_);
+  callbacks.topics.on<Topic::FsmStatus>() = keep(fsm_);
+  callbacks.topics.on<Topic::Localization>() = keep(localization_);
+  callbacks.topics.on<Topic::Macros>() = keep(macros_);
+  callbacks.topics.on<Topic::MissionInfo>() = keep(mission_);
   callbacks.on_link = [this](const LinkReport&) { changed_.notify_all(); };
   callbacks.on_lease = [this](const LeaseView&) { changed_.notify_all(); };
   callbacks.on_stop = [this](const StopReport&) { changed_.notify_all(); };

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "common/client/command_update.h"
 #include "common/core/clock.h"
 #include "common/model/command.h"
 #include "common/model/fsm.h"
@@ -100,7 +101,8 @@ class Link : public QObject {
   void mapLayer(std::shared_ptr<const kiln::MapLayer> layer);
   void macros(const std::vector<kiln::MacroInfo>& macros);
   void log(const std::vector<kiln::LogLine>& lines);
-  void ack(const kiln::CommandAck& ack);
+  /// Each change of a command of this station, its not being answered in time included.
+  void command(const kiln::CommandUpdate& update);
   /// What follows does not go on from what came before (a jump in a recording): forget histories.
   void restarted();
   /// After restarted(): nothing of these had been published at the new time. What is still shown of

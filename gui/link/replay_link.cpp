@@ -3,7 +3,6 @@
 #include <QFileInfo>
 #include <algorithm>
 
-#include "common/client/topic_dispatch.h"
 #include "common/record/run_replay.h"
 #include "gui/link/topic_inboxes.h"
 
@@ -195,7 +194,7 @@ void ReplayLink::Impl::poll() {
   const auto polled = replay.poll([this](Topic topic, std::string_view payload, Stamp published) {
     Arrival arrival;
     arrival.received = published;
-    const auto done = dispatch(topic, payload, callbacks, arrival, [](const RobotStatus&) {});
+    const auto done = callbacks.topics.dispatch(topic, payload, arrival);
     if (!done) inboxes->warn(done.error().message);
   });
   if (polled) return;

@@ -9,7 +9,7 @@
 namespace kiln::gui {
 
 namespace {
-constexpr std::size_t kAckQueue = 200;
+constexpr std::size_t kCommandQueue = 200;
 constexpr double kLossSmoothing = 0.02;  // about the last 50 status messages
 constexpr int kAckShown_ms = 500;        // until the robot's status tells of the latch itself
 
@@ -29,25 +29,6 @@ LinkState stateOf(kiln::LinkState state) {
   return LinkState::Connecting;
 }
 
-std::optional<AckOutcome> outcomeOf(CommandState state) {
-  switch (state) {
-    case CommandState::Accepted:
-      return AckOutcome::Accepted;
-    case CommandState::Refused:
-      return AckOutcome::Refused;
-    case CommandState::Done:
-      return AckOutcome::Done;
-    case CommandState::Failed:
-      return AckOutcome::Failed;
-    case CommandState::Cancelled:
-      return AckOutcome::Cancelled;
-    case CommandState::Sent:
-    case CommandState::Unknown:
-      return std::nullopt;  // the tracker keeps its own clock
-  }
-  return std::nullopt;
-}
-
 }  // namespace
 
 struct RobotLink::Impl {
@@ -62,7 +43,7 @@ struct RobotLink::Impl {
   Inbox<LinkReport> health;
   Inbox<StopReport> stop;
   Inbox<HelloReply> hello;
-  Batches<CommandAck> acks;
+  Batches<CommandUpdate> commands;
   double loss = 0.0;
   bool reachable = false;
   TopicInboxes topics;
@@ -74,13 +55,10 @@ RobotLink::Impl::Impl(RobotLink& owner)
       health(owner, [this](const LinkReport& r) { deliverHealth(r); }),
       stop(owner, [this](const StopReport& r) { deliverStop(r); }),
       hello(owner, [this](const HelloReply& r) { emit link.hello(r); }),
-      acks(owner, kAckQueue,
-           [this](const std::vector<CommandAck>& batch) {
-             for (CommandAck ack : batch) {
-               ack.client_id = session ? session->clientId() : std::string{};
-               emit link.ack(ack);
-             }
-           }),
+      commands(owner, kCommandQueue,
+               [this](const std::vector<CommandUpdate>& batch) {
+                 for (const CommandUpdate& update : batch) emit link.command(update);
+               }),
       topics(owner, [this](const Arrival& arrival) { noteArrival(arrival); }) {}
 
 OperatorSession::Callbacks RobotLink::Impl::callbacks() {
@@ -88,11 +66,7 @@ OperatorSession::Callbacks RobotLink::Impl::callbacks() {
   c.on_link = [this](const LinkReport& r) { health.put(r); };
   c.on_hello = [this](const HelloReply& r) { hello.put(r); };
   c.on_stop = [this](const StopReport& r) { stop.put(r); };
-  c.on_command = [this](const CommandUpdate& u) {
-    const auto outcome = outcomeOf(u.state);
-    if (!outcome) return;
-    acks.put(CommandAck{{}, u.nonce, u.command, *outcome, u.code, u.reason, u.lease_holder});
-  };
+  c.on_command = [this](const CommandUpdate& u) { commands.put(u); };
   return c;
 }
 

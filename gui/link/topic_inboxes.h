@@ -34,25 +34,21 @@ class TopicInboxes {
   /// @param replay   statuses are marked as of a recording.
   TopicInboxes(Link& link, std::function<void(const Arrival&)> arrived, bool replay = false);
 
-  /// The on_... callbacks of the topics; the others stay empty.
-  [[nodiscard]] OperatorSession::Callbacks callbacks();
+  /// The subscribers and on_bad_message; the other callbacks stay empty.
+  [[nodiscard]] const OperatorSession::Callbacks& callbacks() const { return callbacks_; }
   /// A line for the station's log. Thread-safe.
   void warn(const std::string& text);
 
  private:
-  bool replay_;
-  Inbox<std::pair<std::shared_ptr<const RobotStatus>, Arrival>> status_;
-  Inbox<std::shared_ptr<const FsmInfo>> fsm_info_;
-  Inbox<std::shared_ptr<const FsmStatus>> fsm_status_;
-  Inbox<std::shared_ptr<const Scene>> scene_;
-  Inbox<std::shared_ptr<const LocalizationStatus>> localization_;
-  Inbox<std::shared_ptr<const Trajectory>> trajectory_;
-  Inbox<std::shared_ptr<const MapLayer>> map_layer_;
-  Inbox<std::vector<MacroInfo>> macros_;
-  Inbox<PointCloudPtr> cloud_;
-  Inbox<ThermalImagePtr> thermal_;
-  Inbox<std::shared_ptr<const MissionInfo>> mission_info_;
-  Inbox<std::shared_ptr<const MissionDetail>> mission_stream_;
+  /// Hands every value of a topic to `deliver` on the GUI thread.
+  template <Topic topic>
+  void take(std::function<void(const SharedValueOf<topic>&, const Arrival&)> deliver);
+  template <Topic topic>
+  void relay(void (Link::*signal)(SharedValueOf<topic>));
+
+  Link& link_;
+  std::vector<std::shared_ptr<void>> inboxes_;  ///< a queued delivery needs them
+  OperatorSession::Callbacks callbacks_;
   Inbox<RgbImagePtr> head_image_, operator_image_;
   Batches<LogLine> log_;
   std::unique_ptr<JpegDecoder> decoder_;  // last: its thread calls the above

@@ -14,13 +14,13 @@ int rank(const AlarmModel::Entry& entry) {
 }
 }  // namespace
 
-AlarmModel::AlarmModel(Link& link, CommandTracker& commands, QObject* parent)
+AlarmModel::AlarmModel(Link& link, CommandModel& commands, QObject* parent)
     : Model(link, AgeLimits{}, parent), commands_(commands) {
   connect(&link, &Link::restarted, this, [this] {
     entries_.clear();
     touch();
   });
-  connect(&commands_, &CommandTracker::progressed, this, &AlarmModel::onAnswer);
+  connect(&commands_, &CommandModel::progressed, this, &AlarmModel::onAnswer);
   connect(&link, &Link::status, this, [this](const std::shared_ptr<const RobotStatus>& status) {
     // The robot tells of each until it is over and acknowledged, by whomever.
     std::erase_if(entries_, [&](const Entry& entry) {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "gui/models/command_tracker.h"
+#include "gui/models/command_model.h"
 #include "gui/models/model.h"
 
 namespace kiln::gui {
@@ -20,7 +20,7 @@ class AlarmModel : public Model {
     std::uint64_t asked = 0;         ///< nonce of an acknowledgement that is under way
     std::optional<Stamp> granted{};  ///< when it was answered with yes; the status follows
   };
-  AlarmModel(Link& link, CommandTracker& commands, QObject* parent = nullptr);
+  AlarmModel(Link& link, CommandModel& commands, QObject* parent = nullptr);
   /// Newest first.
   [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
   /// By weight: what is active and unacknowledged, what is active, what is over; in each the higher
@@ -48,7 +48,7 @@ class AlarmModel : public Model {
   void take(const Alarm& alarm, bool own);
   void forgetFinished();
   void onAnswer(const TrackedCommand& command);
-  CommandTracker& commands_;
+  CommandModel& commands_;
   std::vector<Entry> entries_;
 };
 

@@ -6,7 +6,7 @@ namespace kiln::gui {
 
 ForcedJump::ForcedJump(StationModels& models, QObject* parent) : QObject(parent), models_(models) {
   connect(&models_, &StationModels::aged, this, &ForcedJump::tick);
-  connect(&models_.commands, &CommandTracker::progressed, this, &ForcedJump::onProgress);
+  connect(&models_.commands, &CommandModel::progressed, this, &ForcedJump::onProgress);
   connect(&models_.fsm, &FsmModel::stateEntered, this, [this](const QString& name) {
     if (phase_ == Phase::Picked && name != from_) {
       cancel(tr("the robot has moved on to %1: look again").arg(models_.fsm.label(name)));
@@ -130,8 +130,8 @@ void ForcedJump::onProgress(const TrackedCommand& command) {
       command.open())
     return;
   const QString text = command.reason.isEmpty()
-                           ? toText(command.phase)
-                           : toText(command.phase) + QStringLiteral(": ") + command.reason;
+                           ? toText(command.state)
+                           : toText(command.state) + QStringLiteral(": ") + command.reason;
   finish(text, command.bad());
 }
 

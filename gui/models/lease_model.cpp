@@ -4,13 +4,13 @@
 
 namespace kiln::gui {
 
-LeaseModel::LeaseModel(Link& link, CommandTracker& commands, QObject* parent)
+LeaseModel::LeaseModel(Link& link, CommandModel& commands, QObject* parent)
     : Model(link, AgeLimits{}, parent), commands_(commands) {
   connect(&link, &Link::status, this, [this](const std::shared_ptr<const RobotStatus>& status) {
     lease_ = status->lease;
     arrived(status->stamp);
   });
-  connect(&commands, &CommandTracker::progressed, this, [this] { touch(); });
+  connect(&commands, &CommandModel::progressed, this, [this] { touch(); });
 }
 
 LeaseHolder LeaseModel::holder() const {
@@ -24,7 +24,7 @@ QString LeaseModel::holderName() const { return QString::fromStdString(lease_.ho
 
 bool LeaseModel::requesting() const {
   const TrackedCommand* command = commands_.find(request_);
-  return command && command->phase == CommandPhase::Sent;
+  return command && command->state == CommandState::Sent;
 }
 
 QString LeaseModel::askedBy() const {

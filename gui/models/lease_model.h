@@ -1,6 +1,6 @@
 #pragma once
 
-#include "gui/models/command_tracker.h"
+#include "gui/models/command_model.h"
 #include "gui/models/model.h"
 
 namespace kiln::gui {
@@ -11,7 +11,7 @@ enum class LeaseHolder : std::uint8_t { Unknown, Free, Mine, Other };
 class LeaseModel : public Model {
   Q_OBJECT
  public:
-  LeaseModel(Link& link, CommandTracker& commands, QObject* parent = nullptr);
+  LeaseModel(Link& link, CommandModel& commands, QObject* parent = nullptr);
   [[nodiscard]] LeaseHolder holder() const;
   [[nodiscard]] bool mine() const { return holder() == LeaseHolder::Mine; }
   [[nodiscard]] QString holderName() const;
@@ -29,7 +29,7 @@ class LeaseModel : public Model {
   void release();
 
  private:
-  CommandTracker& commands_;
+  CommandModel& commands_;
   LeaseStatus lease_;
   std::uint64_t request_ = 0;
 };

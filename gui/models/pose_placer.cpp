@@ -12,7 +12,7 @@ constexpr double kStandstill_radps = 0.03;
 }  // namespace
 
 PosePlacer::PosePlacer(StationModels& models, QObject* parent) : QObject(parent), models_(models) {
-  connect(&models_.commands, &CommandTracker::progressed, this, &PosePlacer::onProgress);
+  connect(&models_.commands, &CommandModel::progressed, this, &PosePlacer::onProgress);
   connect(&models_, &StationModels::aged, this, &PosePlacer::watchExpiry);
 }
 
@@ -87,10 +87,10 @@ void PosePlacer::cancel() {
 void PosePlacer::onProgress(const TrackedCommand& command) {
   if (phase_ != Phase::Sent || command.nonce != nonce_) return;
   if (command.bad()) {
-    reason_ = toText(command.phase) + QStringLiteral(": ") + command.reason;
+    reason_ = toText(command.state) + QStringLiteral(": ") + command.reason;
     return go(Phase::Refused);
   }
-  if (command.phase == CommandPhase::Done || command.phase == CommandPhase::Accepted)
+  if (command.state == CommandState::Done || command.state == CommandState::Accepted)
     go(Phase::Idle);
 }
 

@@ -32,10 +32,10 @@ StationModels::StationModels(Link& link_in, QObject* parent)
     watchViews();
   });
   connect(&age_timer_, &QTimer::timeout, this, &StationModels::aged);
-  connect(&commands, &CommandTracker::progressed, this, [this](const TrackedCommand& command) {
+  connect(&commands, &CommandModel::progressed, this, [this](const TrackedCommand& command) {
     if (command.bad())
-      log.addOwn(3, command.label + ": " + toText(command.phase) + ", " + command.reason);
-    if (command.phase == CommandPhase::Sent) log.addOwn(2, command.label + ": sent");
+      log.addOwn(3, command.label + ": " + toText(command.state) + ", " + command.reason);
+    if (command.state == CommandState::Sent) log.addOwn(2, command.label + ": sent");
   });
   flush_timer_.start(kFlushPeriod_ms);
   age_timer_.start(kAgePeriod_ms);
@@ -66,7 +66,6 @@ bool StationModels::mayJog(QString* why) const {
 }
 
 void StationModels::flush() {
-  commands.expire();
   for (Model* model :
        {static_cast<Model*>(&commands), static_cast<Model*>(&status),
         static_cast<Model*>(&link_state), static_cast<Model*>(&stop), static_cast<Model*>(&lease),

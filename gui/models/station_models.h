@@ -3,7 +3,7 @@
 #include <QTimer>
 
 #include "gui/models/alarm_model.h"
-#include "gui/models/command_tracker.h"
+#include "gui/models/command_model.h"
 #include "gui/models/fsm_model.h"
 #include "gui/models/lease_model.h"
 #include "gui/models/localization_model.h"
@@ -26,7 +26,7 @@ class StationModels : public QObject {
   explicit StationModels(Link& link_in, QObject* parent = nullptr);
 
   Link& link;
-  CommandTracker commands;
+  CommandModel commands;
   StatusModel status;
   LinkModel link_state;
   StopModel stop;

@@ -2,7 +2,7 @@
 
 namespace kiln::gui {
 
-StopModel::StopModel(Link& link, CommandTracker& commands, QObject* parent)
+StopModel::StopModel(Link& link, CommandModel& commands, QObject* parent)
     : Model(link, AgeLimits{}, parent), commands_(commands) {
   connect(&link, &Link::stopLane, this, [this](const StopLane& lane) {
     lane_ = lane;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "gui/models/command_tracker.h"
+#include "gui/models/command_model.h"
 #include "gui/models/model.h"
 
 namespace kiln::gui {
@@ -18,7 +18,7 @@ enum class StopStage : std::uint8_t {
 class StopModel : public Model {
   Q_OBJECT
  public:
-  StopModel(Link& link, CommandTracker& commands, QObject* parent = nullptr);
+  StopModel(Link& link, CommandModel& commands, QObject* parent = nullptr);
   [[nodiscard]] StopStage stage() const;
   [[nodiscard]] bool latched() const {
     return stage() == StopStage::Latched || stage() == StopStage::Standstill;
@@ -32,7 +32,7 @@ class StopModel : public Model {
   void clear();
 
  private:
-  CommandTracker& commands_;
+  CommandModel& commands_;
   StopLane lane_;
   StopStatus robot_;
 };

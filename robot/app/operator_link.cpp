@@ -238,54 +238,10 @@ void OperatorLink::setMissionUuid(const std::string& uuid) {
 void OperatorLink::setTap(LinkTap tap) { impl_->tap = std::move(tap); }
 void OperatorLink::keepPictures(bool keep) { impl_->keep_pictures.store(keep); }
 
-void OperatorLink::publish(RobotStatus status) {
-  impl_->publish(Topic::RobotStatus, [value = std::move(status)] { return wire::encode(value); });
+void OperatorLink::publish(Topic topic, LinkTap::Encode encode) {
+  impl_->publish(topic, std::move(encode));
 }
-void OperatorLink::publish(FsmInfo info) {
-  impl_->publish(Topic::FsmInfo, [value = std::move(info)] { return wire::encode(value); });
-}
-void OperatorLink::publish(MissionInfo info) {
-  impl_->publish(Topic::MissionInfo, [value = std::move(info)] { return wire::encode(value); });
-}
-void OperatorLink::publish(FsmStatus status) {
-  impl_->publish(Topic::FsmStatus, [value = std::move(status)] { return wire::encode(value); });
-}
-void OperatorLink::publish(Scene scene) {
-  impl_->publish(Topic::Scene, [value = std::move(scene)] { return wire::encode(value); });
-}
-void OperatorLink::publish(std::vector<MacroInfo> macros) {
-  impl_->publish(Topic::Macros, [value = std::move(macros)] { return wire::encode(value); });
-}
-void OperatorLink::publish(LocalizationStatus status) {
-  impl_->publish(Topic::Localization, [value = std::move(status)] { return wire::encode(value); });
-}
-void OperatorLink::publish(Trajectory trajectory) {
-  impl_->publish(Topic::Trajectory,
-                 [value = std::move(trajectory)] { return wire::encode(value); });
-}
-void OperatorLink::publish(std::shared_ptr<const MapLayer> layer) {
-  impl_->publish(Topic::MapLayer, [value = std::move(layer)] { return wire::encode(*value); });
-}
-void OperatorLink::publish(LogBatch batch) {
-  impl_->publish(Topic::Log, [value = std::move(batch)] { return wire::encode(value); });
-}
-void OperatorLink::publish(PointCloudPtr cloud) {
-  impl_->publish(Topic::Cloud,
-                 [value = std::move(cloud), resolution_m = impl_->config.cloud_resolution_m] {
-                   return wire::encode(*value, resolution_m);
-                 });
-}
-void OperatorLink::publish(ThermalImagePtr image) {
-  impl_->publish(Topic::Thermal, [value = std::move(image)] { return wire::encode(*value); });
-}
-void OperatorLink::publish(MissionDetail detail) {
-  impl_->publish(Topic::MissionStream, [value = std::move(detail)] { return wire::encode(value); });
-}
-void OperatorLink::publish(JpegImagePtr image) {
-  const Topic topic =
-      image->frame == frames::kOperatorCamera ? Topic::OperatorCamera : Topic::HeadCamera;
-  impl_->publish(topic, [value = std::move(image)] { return wire::encode(*value); });
-}
+double OperatorLink::cloudResolution() const { return impl_->config.cloud_resolution_m; }
 
 bool OperatorLink::wanted(const std::string& jpeg_frame) const {
   if (impl_->keep_pictures.load()) return true;

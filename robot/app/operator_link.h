@@ -6,15 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "common/client/topic_values.h"
 #include "common/config/config_archive.h"
 #include "common/core/clock.h"
 #include "common/core/error.h"
-#include "common/model/fsm.h"
 #include "common/model/link.h"
-#include "common/model/localization.h"
-#include "common/model/scene.h"
-#include "common/model/sensor.h"
-#include "common/model/status.h"
 #include "robot/app/link_tap.h"
 #include "robot/safety/operator_peer.h"
 #include "robot/safety/stop_latch.h"
@@ -67,20 +63,22 @@ class OperatorLink {
   void setTap(LinkTap tap);
 
   // --- telemetry
-  void publish(RobotStatus status);
-  void publish(FsmInfo info);      ///< latched
-  void publish(MissionInfo info);  ///< latched
-  void publish(FsmStatus status);
-  void publish(Scene scene);                    ///< latched
-  void publish(std::vector<MacroInfo> macros);  ///< latched
-  void publish(LocalizationStatus status);
-  void publish(Trajectory trajectory);                  ///< latched
-  void publish(std::shared_ptr<const MapLayer> layer);  ///< latched; send it when the map changes
-  void publish(LogBatch batch);
-  void publish(PointCloudPtr cloud);
-  void publish(ThermalImagePtr image);
-  void publish(MissionDetail detail);  ///< on the mission stream
-  void publish(JpegImagePtr image);    ///< frame "rgb" or "operator_camera"
+  /// On the topic of such a value (common/client/topic_values.h), latched where the topic is: send
+  /// a map layer only when the map changes.
+  template <class T>
+  void publish(std::shared_ptr<const T> value) {
+    const Topic topic = topicOf(*value);
+    publish(topic, [value = std::move(value), resolution_m = cloudResolution()] {
+      if constexpr (std::is_same_v<T, PointCloud>)
+        return wire::encode(*value, resolution_m);
+      else
+        return wire::encode(*value);
+    });
+  }
+  template <class T>
+  void publish(T value) {
+    publish(std::make_shared<const T>(std::move(value)));
+  }
   /// Pictures are taken though no station watches (for the recording).
   void keepPictures(bool keep);
   /// Somebody wants pictures of this frame: encode JPEG only then.
@@ -90,6 +88,8 @@ class OperatorLink {
   [[nodiscard]] std::vector<DropCount> drops() const;
 
  private:
+  void publish(Topic topic, LinkTap::Encode encode);
+  [[nodiscard]] double cloudResolution() const;
   struct Impl;
   explicit OperatorLink(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;

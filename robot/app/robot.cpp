@@ -171,12 +171,12 @@ GateSituation Robot::Impl::gateSituation(Stamp now) const {
 /// Makes what may fail. Nothing runs yet: what is refused leaves nothing behind.
 Result<void> Robot::Impl::open(Executor& executor) {
   TelemetryHub& telemetry = reporting.telemetry();
-  auto made =
-      mission.make({body.clock, executor, body.arena, body.robot, body.belief, body.drive,
-                    body.move_arm, body.devices.arm, body.pumps, body.pose, intake.surroundings(),
-                    [this](Stamp stamp) { return intake.flangeAt(stamp, localization.tracked()); },
-                    [&telemetry](const ThermalImagePtr& image) { telemetry.publish(image); },
-                    [&telemetry](MissionDetail detail) { telemetry.publish(std::move(detail)); }});
+  auto made = mission.make(
+      {body.clock, executor, body.arena, body.robot, body.belief, body.drive, body.move_arm,
+       body.devices.arm, body.pumps, body.pose, [this] { return intake.surroundings().scans(); },
+       [this](Stamp stamp) { return intake.flangeAt(stamp, localization.tracked()); },
+       [&telemetry](const ThermalImagePtr& image) { telemetry.publish(image); },
+       [&telemetry](MissionDetail detail) { telemetry.publish(std::move(detail)); }});
   if (!made) return made;
   auto opened = desk.open(
       {[this](Stamp now) { return gateSituation(now); },

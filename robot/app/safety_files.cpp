@@ -1,11 +1,15 @@
 #include "robot/app/safety_files.h"
 
 #include "common/config/required_keys.h"
+#include "robot/missions/catalog.h"
 
 namespace kiln {
 Result<ArenaMap> loadArena(const std::string& resource) {
-  return loadComplete<ArenaMap>(
-      resource, {"start", "approach", "walls", "furniture", "doorway", "entry_path", "geofence"});
+  auto arena = loadComplete<ArenaMap>(resource, {"start", "approach", "walls", "furniture",
+                                                 "doorway", "entry_path", "sites", "geofence"});
+  if (!arena) return arena;
+  if (auto furnished = furnish(*arena); !furnished) return tl::make_unexpected(furnished.error());
+  return arena;
 }
 
 Result<RobotGeometry> loadGeometry(const std::string& resource) {

@@ -20,7 +20,7 @@ SensorIntake::SensorIntake(RobotBody& body, const ScanLocator& locator, Executor
       self_filter_(body.robot, body.settings.self_filter),
       perception_(body.settings.perception, executor, body.robot, history_, self_filter_, locator,
                   body.settings.surroundings.obstacles),
-      surroundings_(body.settings.surroundings, fireBoxSizes(body.arena), executor) {}
+      surroundings_(body.settings.surroundings) {}
 
 void SensorIntake::start(std::function<void(ThermalImagePtr)> thermal,
                          std::function<void(RgbImagePtr)> picture) {

@@ -10,8 +10,7 @@ namespace kiln {
 namespace {
 
 constexpr double kLogRate_hz = 2.0;
-constexpr std::uint32_t kWallColour = 0x9aa3ab, kFurnitureColour = 0x8a7f70,
-                        kFireTableColour = 0xb5734a;
+constexpr std::uint32_t kWallColour = 0x9aa3ab, kFurnitureColour = 0x8a7f70, kSiteColour = 0xb5734a;
 
 JpegImagePtr encode(const RgbImage& image, int quality) {
   const cv::Mat rgb(image.height, image.width, CV_8UC3,
@@ -81,8 +80,8 @@ std::vector<SceneBox> sceneBoxes(const ArenaMap& arena) {
   std::vector<SceneBox> boxes;
   for (const BoxConfig& wall : arena.walls) boxes.push_back(sceneBox(wall, kWallColour));
   for (const BoxConfig& item : arena.furniture) boxes.push_back(sceneBox(item, kFurnitureColour));
-  for (const BoxConfig& item : arena.fireFurniture())
-    boxes.push_back(sceneBox(item, kFireTableColour));
+  for (const auto& [mission, site] : arena.fixtures)
+    for (const BoxConfig& item : site.boxes) boxes.push_back(sceneBox(item, kSiteColour));
   return boxes;
 }
 

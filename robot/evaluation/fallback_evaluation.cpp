@@ -13,7 +13,7 @@
 #include "robot/evaluation/evaluation.h"
 #include "robot/evaluation/live_system.h"
 #include "robot/evaluation/truth.h"
-#include "robot/scene/arena_map.h"
+#include "robot/scene/fire_site_map.h"
 
 namespace kiln {
 namespace {
@@ -70,7 +70,7 @@ Result<void> aimByHand(ScriptedOperator& person, const Eigen::Vector2d& mark) {
                           });
 }
 
-Result<bool> tryPlace(ScriptedOperator& person, const RobotGeometry& robot, const ArenaMap& arena,
+Result<bool> tryPlace(ScriptedOperator& person, const RobotGeometry& robot, double recess_m,
                       const FirePlaceConfig& place) {
   for (const GroundPoseConfig& via : place.via) {
     if (auto drive = person.driveTo(via.pose(), 0.10); !drive)
@@ -86,8 +86,8 @@ Result<bool> tryPlace(ScriptedOperator& person, const RobotGeometry& robot, cons
   const double plate_ahead_of_base = std::hypot(place.plate_xyz_m[0] - place.work_pose.xy_m[0],
                                                 place.plate_xyz_m[1] - place.work_pose.xy_m[1]);
   const Vector6d q = person.view().status->arm.q;
-  const Eigen::Vector2d mark = aimMark(
-      robot, plate_ahead_of_base - robot.X_base_flange(q).translation().x(), arena.recess_m);
+  const Eigen::Vector2d mark =
+      aimMark(robot, plate_ahead_of_base - robot.X_base_flange(q).translation().x(), recess_m);
   if (auto aimed = aimByHand(person, mark); !aimed) return tl::make_unexpected(aimed.error());
   const SteadyClock clock;
   const Stamp until = clock.now() + fromSeconds(kSpraySeconds);
@@ -100,8 +100,8 @@ Result<bool> tryPlace(ScriptedOperator& person, const RobotGeometry& robot, cons
   return true;
 }
 
-Result<void> playByHand(ScriptedOperator& person, const RobotGeometry& robot,
-                        const ArenaMap& arena) {
+Result<void> playByHand(ScriptedOperator& person, const RobotGeometry& robot, const ArenaMap& arena,
+                        const FireSiteMap& site) {
   // The mission's clock runs, and the fire burns, from its start; then the autonomy is given up.
   if (auto started =
           person.waitFor("the mission's start", seconds(60),
@@ -113,8 +113,8 @@ Result<void> playByHand(ScriptedOperator& person, const RobotGeometry& robot,
   for (const GroundPoseConfig& waypoint : arena.entry_path) {
     if (auto drive = person.driveTo(waypoint.pose(), 0.10); !drive) return drive;
   }
-  for (const FirePlaceConfig& place : arena.fire_places) {
-    auto done = tryPlace(person, robot, arena, place);
+  for (const FirePlaceConfig& place : site.places) {
+    auto done = tryPlace(person, robot, site.recess_m, place);
     if (!done) return tl::make_unexpected(done.error());
     if (*done) return {};
     const Pose2 hub = arena.entry_path.back().pose();
@@ -130,6 +130,8 @@ Result<EvaluationResult> evaluateFallback(const SweepOptions& options) {
   if (!robot) return tl::make_unexpected(robot.error());
   const auto arena = loadResource<ArenaMap>("config/arena_kitchen.yaml");
   if (!arena) return tl::make_unexpected(arena.error());
+  const auto site = loadFireSite(*arena);
+  if (!site) return tl::make_unexpected(site.error());
 
   json runs = json::array();
   std::vector<double> litres, collisions;
@@ -138,7 +140,7 @@ Result<EvaluationResult> evaluateFallback(const SweepOptions& options) {
     if (!live) return tl::make_unexpected(live.error());
     auto person = (*live)->connectOperator("evaluation");
     if (!person) return tl::make_unexpected(person.error());
-    const auto played = playByHand(**person, *robot, *arena);
+    const auto played = playByHand(**person, *robot, *arena, *site);
     person->reset();
     auto truth_text = (*live)->finish();
     if (!truth_text) return tl::make_unexpected(truth_text.error());

@@ -4,7 +4,7 @@
 #include "robot/evaluation/evaluation.h"
 #include "robot/evaluation/mission_sweep.h"
 #include "robot/evaluation/pose_accuracy.h"
-#include "robot/scene/arena_map.h"
+#include "robot/scene/fire_site_map.h"
 
 namespace kiln {
 namespace {
@@ -16,7 +16,9 @@ Result<PosePlaces> nominalPlaces() {
   if (!arena) return tl::make_unexpected(arena.error());
   PosePlaces places;
   places.doorway_x_m = arena->doorway.pose().x_m;
-  for (const FirePlaceConfig& fire : arena->fire_places)
+  const auto site = loadFireSite(*arena);
+  if (!site) return tl::make_unexpected(site.error());
+  for (const FirePlaceConfig& fire : site->places)
     places.work_poses.emplace_back(fire.work_pose.pose().x_m, fire.work_pose.pose().y_m);
   return places;
 }

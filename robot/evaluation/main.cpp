@@ -27,7 +27,9 @@ int fail(const Error& error) {
 Result<void> writeFigure(const MissionRun& run, const std::string& path) {
   const auto arena = loadResource<ArenaMap>("config/arena_kitchen.yaml");
   if (!arena) return tl::make_unexpected(arena.error());
-  return writeFileAtomically(path, trajectorySvg(run, *arena));
+  const auto site = loadFireSite(*arena);
+  if (!site) return tl::make_unexpected(site.error());
+  return writeFileAtomically(path, trajectorySvg(run, *arena, *site));
 }
 
 int runOneMission(const MissionRunOptions& options, const std::string& report,

@@ -29,12 +29,14 @@ OperatorSession::Callbacks ScriptedOperator::callbacks() {
   };
   on.on_stop = [this](const StopReport& stop) { update([&](View& v) { v.stop = stop; }); };
   on.on_lease = [this](const LeaseView& lease) { update([&](View& v) { v.lease = lease; }); };
-  on.on_status = [this](const RobotStatus& s, const Arrival&) {
-    update([&](View& v) { v.status = s; });
+  on.topics.on<Topic::RobotStatus>() = [this](const auto& status, const Arrival&) {
+    update([&](View& v) { v.status = *status; });
   };
-  on.on_scene = [this](const Scene& s, const Arrival&) { update([&](View& v) { v.scene = s; }); };
-  on.on_mission_stream = [this](const MissionDetail& d, const Arrival&) {
-    update([&](View& v) { v.stream = d; });
+  on.topics.on<Topic::Scene>() = [this](const auto& scene, const Arrival&) {
+    update([&](View& v) { v.scene = *scene; });
+  };
+  on.topics.on<Topic::MissionStream>() = [this](const auto& detail, const Arrival&) {
+    update([&](View& v) { v.stream = *detail; });
   };
   return on;
 }

@@ -85,21 +85,21 @@ std::vector<Pose2> plannedWay(const ArenaMap& arena, const FirePlaceConfig& plac
   return way;
 }
 
-void drawArena(Canvas& canvas, const ArenaMap& arena) {
+void drawArena(Canvas& canvas, const ArenaMap& arena, const FireSiteMap& site) {
   for (const BoxConfig& box : arena.furniture) canvas.box(box, "fill:#e4e6e8;stroke:#b0b4b8");
   for (const BoxConfig& box : arena.walls) {
     if (box.center.xyz_m[2] - 0.5 * box.size_m[2] > 1.0) continue;  // a lintel: one drives under it
     canvas.box(box, "fill:#50565c");
   }
-  for (const BoxConfig& box : arena.fireFurniture())
+  for (const BoxConfig& box : site.fixtures().boxes)
     canvas.box(box, "fill:none;stroke:#c81e2c;stroke-width:3");
 }
 
-void drawPlan(Canvas& canvas, const ArenaMap& arena) {
+void drawPlan(Canvas& canvas, const ArenaMap& arena, const FireSiteMap& site) {
   constexpr const char* kPlanned = "#4f9d3a";
   std::vector<std::vector<Pose2>> ways(1, {arena.start.pose()});
   for (const GroundPoseConfig& via : arena.entry_path) ways[0].push_back(via.pose());
-  for (const FirePlaceConfig& place : arena.fire_places) ways.push_back(plannedWay(arena, place));
+  for (const FirePlaceConfig& place : site.places) ways.push_back(plannedWay(arena, place));
   for (const auto& way : ways) {
     canvas.line(way, fmt::format("stroke:{};stroke-width:2", kPlanned));
     for (const Pose2& X : way) canvas.arrow(X, kPlanned);
@@ -120,10 +120,10 @@ std::vector<Pose2> trueWay(const MissionRun& run) {
 
 }  // namespace
 
-std::string trajectorySvg(const MissionRun& run, const ArenaMap& arena) {
+std::string trajectorySvg(const MissionRun& run, const ArenaMap& arena, const FireSiteMap& site) {
   Canvas canvas(arena);
-  drawArena(canvas, arena);
-  drawPlan(canvas, arena);
+  drawArena(canvas, arena, site);
+  drawPlan(canvas, arena, site);
   std::vector<std::vector<Pose2>> driven;  // by reset
   int resets = -1;
   const json reports = json::parse(run.robot_json, nullptr, false);

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "robot/evaluation/mission_run.h"
-#include "robot/scene/arena_map.h"
+#include "robot/scene/fire_site_map.h"
 
 namespace kiln {
 
@@ -11,6 +11,7 @@ namespace kiln {
 /// with an arrow at each way-point (green), the way driven as the robot believed, in a new colour
 /// after each reset, and the true way (dashed, if the run was traced). After the figure "Navigation
 /// map and UGV trajectories" of the NimbRo UGV paper.
-[[nodiscard]] std::string trajectorySvg(const MissionRun& run, const ArenaMap& arena);
+[[nodiscard]] std::string trajectorySvg(const MissionRun& run, const ArenaMap& arena,
+                                        const FireSiteMap& site);
 
 }  // namespace kiln

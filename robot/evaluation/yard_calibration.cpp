@@ -34,6 +34,8 @@ Result<Routine> calibrateBy(SimLink& link, ManualClock& clock) {
   if (!robot) return tl::make_unexpected(robot.error());
   auto yard = loadResource<ArenaMap>(kYard);
   if (!yard) return tl::make_unexpected(yard.error());
+  auto plate = loadFireSite(*yard);
+  if (!plate) return tl::make_unexpected(plate.error());
   auto jet = loadResource<SprayCalibration>(kJet);
   if (!jet) return tl::make_unexpected(jet.error());
   clock.advanceTo(link.world().now);
@@ -43,7 +45,7 @@ Result<Routine> calibrateBy(SimLink& link, ManualClock& clock) {
   };
   CalibrationRoutineConfig config;
   config.nozzle.jet = *jet;
-  auto found = calibrateRobot(config, *robot, *yard,
+  auto found = calibrateRobot(config, *robot, {*yard, *plate},
                               {link.arm(), link.pumps(), link.lidar(), link.thermalCamera(),
                                link.operatorCamera(), clock, step});
   if (!found) return tl::make_unexpected(found.error());

@@ -64,14 +64,12 @@ void Localizer::addOdometry(Stamp stamp, const Pose2& X_odom_base) {
   if (submap_ != before) logger("localization")->info("now on the {} map", toString(submap_));
 }
 
-/// Where a lost robot may be, likeliest first: places of the mission, then all over the arena.
+/// Where a lost robot may be, likeliest first: where it works, then all over the arena.
 std::vector<Pose2> Localizer::placesToSearch() const {
   std::vector<Pose2> places{arena_.start.pose()};
   for (const GroundPoseConfig& via : arena_.entry_path) places.push_back(via.pose());
-  for (const FirePlaceConfig& fire : arena_.fire_places) {
-    places.push_back(fire.work_pose.pose());
-    for (const GroundPoseConfig& via : fire.via) places.push_back(via.pose());
-  }
+  for (const auto& [mission, site] : arena_.fixtures)
+    for (const GroundPoseConfig& stand : site.stands) places.push_back(stand.pose());
   const double step = config_.relocate_spacing_m;
   for (double turn = 0.0; turn < 359.0; turn += config_.relocate_step_deg) {
     for (double x = arena_.geofence_x_min_m + 0.5 * step; x < arena_.geofence_x_max_m; x += step) {

@@ -15,5 +15,8 @@ namespace kiln {
 /// "fire: ...; mapping: ..." for a help text.
 [[nodiscard]] std::string missionHelp();
 [[nodiscard]] std::vector<std::string> missionNames();
+/// Puts into the arena what the missions' sites bring, whichever mission will run.
+/// Errors: a site of a mission that is not in the catalogue, or what is wrong with its file.
+[[nodiscard]] Result<void> furnish(ArenaMap& arena);
 
 }  // namespace kiln

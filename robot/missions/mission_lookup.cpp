@@ -30,4 +30,19 @@ std::vector<std::string> missionNames() {
   return names;
 }
 
+Result<void> furnish(ArenaMap& arena) {
+  for (const SiteConfig& site : arena.sites) {
+    const MissionKind* kind = findMission(site.mission);
+    if (!kind || !kind->site)
+      return makeError(ErrorCode::InvalidInput,
+                       "arena '{}': the site {} belongs to mission '{}', which has none here: what "
+                       "stands there would not be an obstacle; take it out or name it furniture",
+                       arena.name, site.file, site.mission);
+    auto fixtures = kind->site(arena);
+    if (!fixtures) return tl::make_unexpected(fixtures.error());
+    arena.fixtures[site.mission] = std::move(*fixtures);
+  }
+  return {};
+}
+
 }  // namespace kiln

@@ -73,7 +73,7 @@ Eigen::Vector3d direction(std::uint64_t seed, const std::string& of) {
 }
 
 /// @param misplaced_m stands so far from its configured place, instead of within the tolerance.
-TrueFirePlace drawFirePlace(const WorldConfig& config, const ArenaMap& nominal,
+TrueFirePlace drawFirePlace(const WorldConfig& config, const FireSiteMap& nominal,
                             const FirePlaceConfig& spot, std::optional<double> misplaced_m,
                             std::uint64_t seed) {
   Random random(seed, "fire place " + spot.name);
@@ -140,7 +140,7 @@ TrueRobot drawRobot(const WorldConfig& config, const RobotGeometry& robot, std::
 }  // namespace
 
 TrueArena TrueArena::draw(const WorldConfig& config, const ArenaMap& nominal,
-                          const RobotGeometry& robot, std::uint64_t seed) {
+                          const FireSiteMap& site, const RobotGeometry& robot, std::uint64_t seed) {
   TrueArena arena;
   Random random(seed, "arena");
   const PerturbationConfig& c = config.perturbation;
@@ -167,11 +167,10 @@ TrueArena TrueArena::draw(const WorldConfig& config, const ArenaMap& nominal,
             Random(seed, "warm board " + board.box).uniform(board.min_c, board.max_c);
     }
   }
-  if (!nominal.fire_places.empty())
-    arena.burning = Random(seed, "burning").bits() % nominal.fire_places.size();
-  for (std::size_t i = 0; i < nominal.fire_places.size(); ++i) {
-    arena.fire_places.push_back(drawFirePlace(config, nominal, nominal.fire_places[i],
-                                              misplacement(config, i, arena.burning), seed));
+  if (!site.places.empty()) arena.burning = Random(seed, "burning").bits() % site.places.size();
+  for (std::size_t i = 0; i < site.places.size(); ++i) {
+    arena.fire_places.push_back(
+        drawFirePlace(config, site, site.places[i], misplacement(config, i, arena.burning), seed));
     arena.fire_places.back().burning = i == arena.burning;
   }
   arena.ground = drawGround(config, nominal, seed);

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "robot/scene/arena_map.h"
+#include "robot/scene/fire_site_map.h"
 #include "robot/sim/world_config.h"
 
 namespace kiln::sim {
@@ -83,7 +83,8 @@ struct TrueArena {
   /// Footprint of the building and so much around it, in map: all walls together.
   [[nodiscard]] Eigen::AlignedBox2d buildingZone(double around_m) const;
   [[nodiscard]] static TrueArena draw(const WorldConfig& config, const ArenaMap& nominal,
-                                      const RobotGeometry& robot, std::uint64_t seed);
+                                      const FireSiteMap& site, const RobotGeometry& robot,
+                                      std::uint64_t seed);
 };
 
 /// Where the people put the robot: the nominal start with the error of `count`-th carrying (0 =

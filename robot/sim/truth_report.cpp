@@ -31,7 +31,7 @@ Json firePlaces(const Truth& t) {
     const TrueFirePlace& place = t.arena.fire_places[i];
     out.push_back({{"name", place.name},
                    {"burning", place.burning},
-                   {"litres", t.litres_delivered[i]},
+                   {"litres", t.fire.litres_delivered[i]},
                    {"plate_xyz_m", json(place.plateInMap())},
                    {"opening", json(place.X_map_front)}});
   }
@@ -56,7 +56,7 @@ Json perturbations(const Truth& t) {
   }
   return {{"wheel_radius_error", r.wheel_radius_error},
           {"steer_offset_rad", r.steer_offset_rad},
-          {"pump_full_flow_lpm", t.full_flow_lpm},
+          {"pump_full_flow_lpm", t.fire.full_flow_lpm},
           {"X_flange_lidar", json(r.X_flange_lidar)},
           {"X_flange_thermal", json(r.X_flange_thermal)},
           {"X_flange_nozzle", json(r.X_flange_nozzle)},
@@ -89,20 +89,22 @@ std::string truthJson(const Truth& t) {
   }
   Json kidnaps = Json::array();
   for (const Pose2& to : t.kidnaps) kidnaps.push_back(json(to));
+  const auto& places = t.arena.fire_places;
+  const std::string burning = places.empty() ? "" : places[t.fire.burning].name;
   const Json out = {{"seed", t.seed},
                     {"world", t.world},
                     {"simulated_s", toSeconds(t.now)},
-                    {"litres_delivered", t.litres_delivered},
-                    {"burning", t.burning},
-                    {"burning_name", t.place_names.empty() ? "" : t.place_names[t.burning]},
+                    {"litres_delivered", t.fire.litres_delivered},
+                    {"burning", t.fire.burning},
+                    {"burning_name", burning},
                     {"score", t.score},
                     {"collisions", collisions},
                     {"resets", t.resets},
-                    {"pump_on_s", t.pump_on_s},
-                    {"litres_emitted", t.litres_emitted},
-                    {"jet_profile", profileJson(t.jet_profile)},
-                    {"tank_l", t.tank_l},
-                    {"plate_c", t.plate_c},
+                    {"pump_on_s", t.fire.pump_on_s},
+                    {"litres_emitted", t.fire.litres_emitted},
+                    {"jet_profile", profileJson(t.fire.jet_profile)},
+                    {"tank_l", t.fire.tank_l},
+                    {"plate_c", t.fire.plate_c},
                     {"final_base", json(t.X_map_base)},
                     {"final_q_rad", json(t.q)},
                     {"start", json(t.starts.back())},
@@ -118,11 +120,11 @@ std::string truthTraceLine(const Truth& t) {
   Json out = {{"t", toSeconds(t.now)},
               {"base", json(t.X_map_base)},
               {"thermal", json(t.X_map_thermal)},
-              {"nozzle", json(t.X_map_nozzle)},
+              {"nozzle", json(t.fire.X_map_nozzle)},
               {"q_rad", json(t.q)},
-              {"plate_c", t.plate_c},
-              {"jet", t.jet_on},
-              {"litres", t.litres_delivered}};
+              {"plate_c", t.fire.plate_c},
+              {"jet", t.fire.jet_on},
+              {"litres", t.fire.litres_delivered}};
   if (!t.people.empty()) out["people"] = Json::array();
   for (const Eigen::Vector3d& feet : t.people) out["people"].push_back(json(feet));
   return out.dump() + "\n";

@@ -6,7 +6,7 @@
 #include "common/config/resources.h"
 #include "common/core/check.h"
 #include "common/core/log.h"
-#include "robot/scene/arena_map.h"
+#include "robot/scene/fire_site_map.h"
 #include "robot/sim/arm_device.h"
 #include "robot/sim/arm_obstacle.h"
 #include "robot/sim/base_device.h"
@@ -14,11 +14,10 @@
 #include "robot/sim/disturbances.h"
 #include "robot/sim/fault_catalog.h"
 #include "robot/sim/fault_script.h"
+#include "robot/sim/fire_part.h"
 #include "robot/sim/physics.h"
 #include "robot/sim/pump_device.h"
 #include "robot/sim/sensor_suite.h"
-#include "robot/sim/water_jet.h"
-#include "robot/sim/wet_boards.h"
 
 namespace kiln::sim {
 namespace {
@@ -29,39 +28,29 @@ constexpr double kSunk_m = 0.3;
 }  // namespace
 
 struct World::Impl {
-  Impl(const WorldConfig& c, const ArenaMap& map, const RobotGeometry& r, std::uint64_t s,
-       Options options)
+  Impl(const WorldConfig& c, const ArenaMap& map, const FireSiteMap& site, const RobotGeometry& r,
+       std::uint64_t s, Options options)
       : config(c),
         robot(r),
         seed(s),
-        arena(TrueArena::draw(c, map, r, s)),
+        arena(TrueArena::draw(c, map, site, r, s)),
         step(fromSeconds(c.physics.step_s)),
         faults(c.faults),
         arm(c.arm, r, arena.robot, s),
         base(c.base, r, arena.robot, s),
         pumps(c.water, s),
-        jet(c.water, arena.fire_places, s),
-        wet(c.warm_boards, arena),
+        fire(c, arena, robot, pumps, s),
         collisions(c.collision_force_n),
         disturbances(arena, r, s),
-        sensors(c, arena, r, wet, s, options.render_colour),
+        sensors(c, arena, r, fire.wet(), s, options.render_colour),
         obstacle(robot),
-        reduced_zone(arena.buildingZone(c.arm.reduced_zone_m)) {
-    if (c.fire.lit_at_start) lit = now;
-  }
+        reduced_zone(arena.buildingZone(c.arm.reduced_zone_m)) {}
 
   void carryToStart();
   void stepOnce();
   void applyFaults();
-  void stepWater();
   void noticeFall();
   [[nodiscard]] SceneState scene() const;
-  [[nodiscard]] double plate() const {
-    if (!lit) return config.fire.ambient_c;
-    const double burns_s = toSeconds(now - *lit);
-    return config.fire.ambient_c +
-           config.fire.rise_k * (1.0 - std::exp(-burns_s / config.fire.time_constant_s));
-  }
   [[nodiscard]] Eigen::Isometry3d X_map_flange() const {
     return physics->X_map_base() * robot.X_base_flange(physics->armPosition());
   }
@@ -77,8 +66,8 @@ struct World::Impl {
   ArmDevice arm;
   BaseDevice base;
   PumpDevice pumps;
-  WaterJet jet;
-  WetBoards wet;
+  FirePart fire;
+  std::vector<WorldPart*> parts{&fire};
   CollisionMonitor collisions;
   Disturbances disturbances;
   SensorSuite sensors;
@@ -86,7 +75,7 @@ struct World::Impl {
   Eigen::AlignedBox2d reduced_zone;
   bool protective_stop_done = false;
   std::optional<Stamp> fell;
-  std::optional<Stamp> lit;  ///< the burning plate
+  bool clock_runs = false;  ///< the mission's
   std::uint32_t resets = 0;
   std::vector<Pose2> starts;
   std::uint64_t seq = 0;
@@ -110,7 +99,7 @@ SceneState World::Impl::scene() const {
     state.steer_rad[i] = physics->steer(i).position;
     state.drive_rad[i] = physics->drive(i).position;
   }
-  state.plate_c = plate();
+  for (const WorldPart* part : parts) part->show(state, now);
   state.obstacle = obstacle.center();
   disturbances.show(state);
   return state;
@@ -143,22 +132,6 @@ void World::Impl::noticeFall() {
               X.translation().y());
 }
 
-void World::Impl::stepWater() {
-  const double dt = toSeconds(step);
-  const double litres = pumps.step(now, dt);
-  if (litres > 0.0) {
-    const Eigen::Isometry3d X_map_nozzle = X_map_flange() * arena.robot.X_flange_nozzle;
-    jet.emit(litres, pumps.flowFraction(), X_map_nozzle,
-             physics->flangePointVelocity(X_map_nozzle.translation()));
-  }
-  if (!jet.flying()) return;
-  jet.step(dt, sensors.rays(scene()));
-  if (wet.empty()) return;
-  for (const WaterJet::Landing& landing : jet.landings()) {
-    if (const auto box = sensors.boxHit(landing.on); box) wet.land(*box, landing.p_map, now);
-  }
-}
-
 void World::Impl::stepOnce() {
   const double dt = toSeconds(step);
   applyFaults();
@@ -172,8 +145,9 @@ void World::Impl::stepOnce() {
   arm.sense(now, dt, *physics);
   collisions.observe(now, physics->contacts());
   noticeFall();
-  stepWater();
-  sensors.afterStep(scene(), faults, [this] { return jet.drops(); });
+  const SceneState seen = scene();
+  for (WorldPart* part : parts) part->step(now, dt, *physics, sensors, seen);
+  sensors.afterStep(seen, faults, [this] { return fire.drops(); });
 }
 
 World::World(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -195,7 +169,9 @@ Result<std::unique_ptr<World>> World::create(const WorldConfig& config, std::uin
   }
   const auto robot = loadResource<RobotGeometry>(config.robot);
   if (!robot) return tl::make_unexpected(robot.error());
-  auto impl = std::make_unique<Impl>(config, *map, *robot, seed, options);
+  const auto site = loadFireSite(*map);
+  if (!site) return tl::make_unexpected(site.error());
+  auto impl = std::make_unique<Impl>(config, *map, *site, *robot, seed, options);
   auto physics = Physics::create(config, impl->arena, *robot);
   if (!physics) return tl::make_unexpected(physics.error());
   impl->physics = std::move(*physics);
@@ -219,7 +195,10 @@ void World::command(const WorldCommands& c) {
     ++w.resets;
     w.carryToStart();
   }
-  if (c.start_clock && !w.lit) w.lit = w.now;
+  if (c.start_clock && !w.clock_runs) {
+    w.clock_runs = true;
+    for (WorldPart* part : w.parts) part->startClock(w.now);
+  }
   if (c.arm) note(w.arm.servo(w.now, c.arm->q, c.arm->qd, c.arm_sent));
   if (c.base) note(w.base.write(w.now, *c.base));
   if (c.pumps) note(w.pumps.write(w.now, *c.pumps));
@@ -254,29 +233,13 @@ Truth World::truth() const {
   t.seed = w.seed;
   t.world = w.config.name;
   t.now = w.now;
-  for (const TrueFirePlace& place : w.arena.fire_places) t.place_names.push_back(place.name);
-  t.litres_delivered = w.jet.deliveredLitres();
-  t.burning = w.arena.burning;
   t.collisions = w.collisions.collisions();
   t.resets = w.resets;
-  if (!t.litres_delivered.empty()) {
-    t.score = w.config.fire.points *
-              std::min(1.0, t.litres_delivered[t.burning] / w.config.fire.full_score_l);
-  }
-  t.pump_on_s = w.pumps.onTime();
-  t.litres_emitted = w.jet.emittedLitres();
-  t.jet_profile = w.jet.profile().rows();
-  for (std::size_t i = 0; i < 2; ++i) {
-    t.tank_l[i] = w.pumps.tank(i);
-    t.full_flow_lpm[i] = w.pumps.fullFlow(i);
-  }
   const SceneState scene = w.scene();
   t.X_map_base = scene.X_map_base;
   t.X_map_thermal = w.sensors.thermal().X_map_thermal(scene);
-  t.X_map_nozzle = w.X_map_flange() * w.arena.robot.X_flange_nozzle;
   t.q = scene.q;
-  t.jet_on = w.pumps.flowFraction() > 0.0;
-  t.plate_c = scene.plate_c;
+  for (const WorldPart* part : w.parts) part->tell(t);
   t.starts = w.starts;
   t.kidnaps = w.disturbances.kidnaps();
   t.people = scene.people;

@@ -54,24 +54,29 @@ struct Collision {
   double force_n = 0.0;  ///< the most while they touched
 };
 
+/// What truly happened at the fire places.
+struct FireTruth {
+  std::vector<double> litres_delivered;  ///< by place, as in TrueArena::fire_places
+  std::size_t burning = 0;
+  double pump_on_s = 0.0, litres_emitted = 0.0;
+  std::vector<JetProfile::Row> jet_profile;
+  std::array<double, 2> tank_l{}, full_flow_lpm{};
+  Eigen::Isometry3d X_map_nozzle = Eigen::Isometry3d::Identity();
+  bool jet_on = false;
+  double plate_c = 25.0;
+};
+
 /// What truly happened; for referees and evaluation, never for the robot.
 struct Truth {
   std::uint64_t seed = 0;
   std::string world;
   Stamp now;
-  std::vector<std::string> place_names;
-  std::vector<double> litres_delivered;  ///< by fire place, in arena order
-  std::size_t burning = 0;
   std::vector<Collision> collisions;
   std::uint32_t resets = 0;
   double score = 0.0;
-  double pump_on_s = 0.0, litres_emitted = 0.0;
-  std::vector<JetProfile::Row> jet_profile;
-  std::array<double, 2> tank_l{}, full_flow_lpm{};
-  Eigen::Isometry3d X_map_base, X_map_thermal, X_map_nozzle;
+  Eigen::Isometry3d X_map_base, X_map_thermal;
   Vector6d q;
-  bool jet_on = false;
-  double plate_c = 25.0;
+  FireTruth fire;
   std::vector<Pose2> starts;   ///< after each carrying, the first one included
   std::vector<Pose2> kidnaps;  ///< where the robot was put without anybody saying so
   std::vector<Eigen::Vector3d> people;

@@ -22,25 +22,6 @@ namespace {
 constexpr std::chrono::milliseconds kPoll{50};
 constexpr Duration kHelloAgain = std::chrono::milliseconds(500);
 
-/// Wakes the io thread out of its poll.
-class WakeEvent {
- public:
-  WakeEvent() : fd_(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {
-    KILN_CHECK(fd_ >= 0, "no file descriptors left");
-  }
-  ~WakeEvent() { ::close(fd_); }
-  WakeEvent(const WakeEvent&) = delete;
-  WakeEvent& operator=(const WakeEvent&) = delete;
-  void signal() const {
-    const std::uint64_t one = 1;
-    (void)!::write(fd_, &one, sizeof(one));
-  }
-  [[nodiscard]] int fd() const { return fd_; }
-
- private:
-  int fd_;
-};
-
 }  // namespace
 
 void SimLink::Config::visit(ConfigArchive& a) {
@@ -98,7 +79,7 @@ struct SimLink::Impl {
 SimLink::Impl::~Impl() {
   if (io.joinable()) {
     io.request_stop();
-    wake.signal();
+    wake.notify();
     io.join();
   }
   if (!socket) return;
@@ -117,7 +98,7 @@ v1::device::Hello SimLink::Impl::hello() const {
 }
 
 Result<void> SimLink::Impl::open() {
-  auto opened_socket = WorldSocket::open(config.endpoint, config.lockstep ? -1 : wake.fd());
+  auto opened_socket = WorldSocket::open(config.endpoint, config.lockstep ? nullptr : &wake);
   if (!opened_socket) return tl::make_unexpected(opened_socket.error());
   socket = std::move(*opened_socket);
   const auto reply = socket->hello(hello(), config.hello_timeout_s);
@@ -132,7 +113,7 @@ Result<void> SimLink::Impl::open() {
   world.devices = devicesFromProto(*reply);
   welcome();
   if (!config.lockstep) {
-    outbox.wake = [this] { wake.signal(); };
+    outbox.wake = [this] { wake.notify(); };
     io = std::jthread([this](std::stop_token stop) { run(stop); });
   }
   return {};

@@ -6,6 +6,8 @@
 #include <string>
 
 #include "common/core/error.h"
+#include "common/transport/wake_event.h"
+#include "common/transport/zmq_socket.h"
 #include "kiln/v1/device.pb.h"
 
 namespace kiln {
@@ -14,27 +16,26 @@ namespace kiln {
 /// time.
 class WorldSocket {
  public:
-  /// @param wake_fd becomes readable when wait() is to return early; -1: none.
-  static Result<std::unique_ptr<WorldSocket>> open(const std::string& endpoint, int wake_fd);
-  ~WorldSocket();
+  /// @param wake  ends receive() early, in real time; nullptr in lockstep.
+  static Result<std::unique_ptr<WorldSocket>> open(const std::string& endpoint, WakeEvent* wake);
 
   /// Never blocks. @return false when the world is not there to take it.
   bool send(const v1::device::ToWorld& message);
-  /// The next message, or nullopt when none came in that time (or the wake fd fired).
+  /// The next message, or nullopt when none came in that time (or it was woken).
   [[nodiscard]] std::optional<v1::device::ToRobot> receive(std::chrono::milliseconds wait);
   /// Whether the connection closed since the last call.
-  [[nodiscard]] bool lost();
+  [[nodiscard]] bool lost() { return socket_.lost(); }
   /// Says hello until the world answers. A busy robot is asked again for a while: its last daemon
   /// may just be dying.
   [[nodiscard]] Result<v1::device::HelloReply> hello(const v1::device::Hello& message,
                                                      double timeout_s);
 
  private:
-  struct Sockets;
-  explicit WorldSocket(int wake_fd);
-  std::unique_ptr<Sockets> sockets_;
+  explicit WorldSocket(WakeEvent* wake);
+  ZmqContext context_;
+  ZmqSocket socket_;
   std::string endpoint_;
-  int wake_fd_;
+  WakeEvent* wake_;
 };
 
 }  // namespace kiln

@@ -1,15 +1,11 @@
 #pragma once
 
-#include <optional>
-#include <string>
-
 #include "common/geom/pose.h"
 #include "common/model/obstacle_cloud.h"
-#include "common/wire/fire/place_check.h"
 
 namespace kiln {
 
-/// What the live cloud says of the world around the robot, as skills and missions see it. An
+/// What the live cloud says of the world around the robot, as skills see it. An
 /// interface, because perception works behind it (robot/app). Confined to the mission thread.
 class Surroundings {
  public:
@@ -18,11 +14,6 @@ class Surroundings {
   [[nodiscard]] virtual ObstacleCloudPtr obstacles() const = 0;
   /// Wheel odometry now, to place obstacles(): p_base = X_odom_base^-1 * p_odom.
   [[nodiscard]] virtual Pose2 X_odom_base() const = 0;
-
-  /// Asks where a fire box stands. The answer comes some ticks later; a new question forgets the
-  /// one before.
-  virtual void beginPlaceCheck(const std::string& place, const Eigen::Isometry3d& X_map_front) = 0;
-  [[nodiscard]] virtual std::optional<PlaceCheck> placeCheck() const = 0;
 };
 
 }  // namespace kiln

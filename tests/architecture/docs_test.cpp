@@ -52,6 +52,35 @@ TEST(Documents, LinkOnlyFilesThatAreThere) {
   }
 }
 
+/// Without leading, trailing and repeated blanks.
+std::string squeezed(const std::string& text) {
+  std::istringstream words(text);
+  std::string out, word;
+  while (words >> word) out += word + " ";
+  return out;
+}
+
+TEST(Documents, QuoteTheTreeWordForWord) {
+  // ```cpp FILE: what stands in the block stands in that file, and is compiled with it.
+  const std::regex block("```cpp([^\\n]*)\\n([\\s\\S]*?)\\n *```");
+  int quotations = 0;
+  for (const fs::path& document : documents()) {
+    const std::string text = read(document);
+    for (auto it = std::sregex_iterator(text.begin(), text.end(), block);
+         it != std::sregex_iterator(); ++it) {
+      const std::string file = squeezed((*it)[1].str());
+      ASSERT_FALSE(file.empty()) << document << " quotes code of no file: " << (*it)[2].str();
+      const fs::path source = kRoot / file.substr(0, file.size() - 1);
+      ASSERT_TRUE(fs::is_regular_file(source)) << document << " quotes " << source;
+      EXPECT_NE(squeezed(read(source)).find(squeezed((*it)[2].str())), std::string::npos)
+          << document << " quotes " << source << " wrongly:\n"
+          << (*it)[2].str();
+      ++quotations;
+    }
+  }
+  EXPECT_GT(quotations, 12);
+}
+
 TEST(Documents, SafetyNamesOnlyTestsThatExist) {
   std::set<std::string> existing;
   const std::regex declared("TEST(?:_F|_P)?\\(\\s*(\\w+\\s*,\\s*\\w+)\\s*\\)");

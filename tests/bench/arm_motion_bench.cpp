@@ -8,7 +8,8 @@
 #include "robot/planning/arm_motion/arm_planner.h"
 #include "robot/planning/arm_motion/cartesian_path.h"
 #include "robot/planning/arm_motion/ur_inverse.h"
-#include "robot/scene/arena_map.h"
+#include "robot/scene/obstacles.h"
+#include "tests/support/kitchen.h"
 
 namespace kiln {
 namespace {
@@ -26,18 +27,15 @@ Config shipped(const char* file) {
 }
 
 /// Bob in front of the first fire place, with all that is known of the kitchen.
-struct Kitchen {
+struct BobInKitchen {
   RobotGeometry robot = shipped<RobotGeometry>("robot_model/bob.yaml");
-  ArenaMap arena = shipped<ArenaMap>("config/arena_kitchen.yaml");
   ArmCollision collision{robot};
   Vector6d home = RobotGeometry::radians(robot.q_drive_deg);
   Vector6d park = RobotGeometry::radians(robot.q_park_deg);
 
-  Kitchen() {
-    std::vector<BoxConfig> boxes = arena.walls;
-    boxes.insert(boxes.end(), arena.furniture.begin(), arena.furniture.end());
-    for (const BoxConfig& box : arena.fireFurniture()) boxes.push_back(box);
-    collision.setScene(boxes, arena.fire_places.front().work_pose.pose());
+  BobInKitchen() {
+    const auto [arena, site] = loadWholeKitchen();
+    collision.setScene(obstacles(arena), site.places.front().work_pose.pose());
   }
   [[nodiscard]] Eigen::Isometry3d lookAhead(double y, double z) const {
     Eigen::Isometry3d X_base_thermal = Eigen::Isometry3d::Identity();
@@ -61,20 +59,20 @@ struct Kitchen {
 };
 
 void inverseKinematics(benchmark::State& state) {
-  const Kitchen kitchen;
+  const BobInKitchen kitchen;
   const Eigen::Isometry3d X = kitchen.robot.arm.forward(kitchen.home);
   for (auto _ : state) benchmark::DoNotOptimize(inverseSolutions(kitchen.robot.arm, X));
 }
 BENCHMARK(inverseKinematics)->Unit(benchmark::kMicrosecond);
 
 void collisionOfOnePosture(benchmark::State& state) {
-  const Kitchen kitchen;
+  const BobInKitchen kitchen;
   for (auto _ : state) benchmark::DoNotOptimize(kitchen.collision.distance(kitchen.home));
 }
 BENCHMARK(collisionOfOnePosture)->Unit(benchmark::kMicrosecond);
 
 void straightMoveCheck(benchmark::State& state) {
-  const Kitchen kitchen;
+  const BobInKitchen kitchen;
   for (auto _ : state) {
     benchmark::DoNotOptimize(kitchen.collision.pathIsFree(kitchen.home, kitchen.park, 0.03));
   }
@@ -82,7 +80,7 @@ void straightMoveCheck(benchmark::State& state) {
 BENCHMARK(straightMoveCheck)->Unit(benchmark::kMicrosecond);
 
 void searchRaster(benchmark::State& state) {
-  const Kitchen kitchen;
+  const BobInKitchen kitchen;
   const Vector6d q0 = kitchen.postureFor(kitchen.lookAhead(-0.35, 1.3));
   std::vector<Eigen::Isometry3d> raster;
   double side = 1.0;
@@ -99,7 +97,7 @@ void searchRaster(benchmark::State& state) {
 BENCHMARK(searchRaster)->Unit(benchmark::kMillisecond);
 
 void planAroundAPost(benchmark::State& state) {
-  Kitchen kitchen;
+  BobInKitchen kitchen;
   BoxConfig post;
   post.name = "post";
   post.center.xyz_m = {0.95, -0.35, 0.95};

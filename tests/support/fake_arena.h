@@ -2,54 +2,60 @@
 
 #include <cmath>
 #include <functional>
-#include <map>
-#include <optional>
+#include <memory>
 #include <string>
 
 #include "common/core/units.h"
+#include "common/geom/frames.h"
 #include "robot/hal/arena.h"
-#include "robot/scene/arena_map.h"
-#include "robot/skills/surroundings.h"
+#include "robot/perception/cloud/face_model.h"
+#include "robot/perception/cloud/scan_window.h"
+#include "robot/scene/fire_site_map.h"
 #include "tests/support/thermal_renderer.h"
 
 namespace kiln {
 
-/// Says of every place that it stands where it is configured, of one that it stands `by` from
-/// there; nothing else stands around.
-class FakeSurroundings final : public Surroundings {
+/// What the LiDAR sees of the fire places: points all over the opaque faces that are turned to it.
+/// The place `moved` stands `by` from where it is configured.
+class PlaceScans {
  public:
-  FakeSurroundings(const Clock& clock, std::string moved, const Pose2& by)
-      : clock_(clock), moved_(std::move(moved)), by_(by) {}
-  [[nodiscard]] ObstacleCloudPtr obstacles() const override { return nullptr; }
-  [[nodiscard]] Pose2 X_odom_base() const override { return {}; }
-  void beginPlaceCheck(const std::string& place, const Eigen::Isometry3d& X_map_front) override {
-    const Pose2 at = projectToGround(first_.try_emplace(place, X_map_front).first->second);
-    const Pose2 by = place == moved_ ? by_ : Pose2{};
-    PlaceCheck check;
-    check.stamp = clock_.now();
-    check.place = place;
-    check.X_map_configured = X_map_front;
-    check.X_map_sensed =
-        toIsometry(Pose2{at.x_m + by.x_m, at.y_m + by.y_m, at.yaw_rad + by.yaw_rad});
-    check.X_map_sensed->translation().z() = X_map_front.translation().z();
-    const Pose2 off = check.correction();
-    check.offset_m = std::hypot(off.x_m, off.y_m);
-    check.yaw_offset_rad = off.yaw_rad;
-    check.coverage = 0.74;
-    check.points = 412;
-    check.verdict = check.offset_m < kTolerance_m ? PlaceVerdict::Fits : PlaceVerdict::Misplaced;
-    check.reason = check.verdict == PlaceVerdict::Fits ? "fits" : place + " stands elsewhere";
-    answer_ = check;
+  PlaceScans(FireSiteMap site, std::string moved, const Pose2& by)
+      : site_(std::move(site)), moved_(std::move(moved)), by_(by) {}
+  [[nodiscard]] std::deque<ScanWindow::Entry> look(Stamp now, const Eigen::Isometry3d& X_map_base,
+                                                   const Eigen::Isometry3d& X_base_lidar) const {
+    auto scan = std::make_shared<PointCloud>();
+    scan->stamp = now;
+    scan->frame = frames::kBase;
+    for (const FirePlaceConfig& place : site_.places)
+      add(*scan, X_map_base.inverse() * front(place), X_base_lidar.translation());
+    return {{scan, X_map_base, X_base_lidar}};
   }
-  [[nodiscard]] std::optional<PlaceCheck> placeCheck() const override { return answer_; }
 
  private:
-  static constexpr double kTolerance_m = 0.145;
-  const Clock& clock_;
+  [[nodiscard]] Eigen::Isometry3d front(const FirePlaceConfig& place) const {
+    const auto& p = place.plate_xyz_m;
+    Eigen::Isometry3d X = site_.front({p[0], p[1], p[2]}, place.facing_deg * kDeg);
+    if (place.name != moved_) return X;
+    X.linear() = Eigen::AngleAxisd(by_.yaw_rad, Eigen::Vector3d::UnitZ()) * X.linear();
+    X.translation() += Eigen::Vector3d(by_.x_m, by_.y_m, 0.0);
+    return X;
+  }
+  static void add(PointCloud& scan, const Eigen::Isometry3d& X_base_front,
+                  const Eigen::Vector3d& p_base_lidar) {
+    constexpr double kStep_m = 0.02;
+    for (const Face& face : fireBoxFaces({})) {
+      if ((X_base_front.inverse() * p_base_lidar - face.centre).dot(face.n) <= 0.0) continue;
+      for (double a = -face.half_u; a <= face.half_u; a += kStep_m)
+        for (double b = -face.half_v; b <= face.half_v; b += kStep_m) {
+          const Eigen::Vector3f p =
+              (X_base_front * (face.centre + a * face.u + b * face.v)).cast<float>();
+          scan.push(p.x(), p.y(), p.z(), 40.0F, 0, 0.0F);
+        }
+    }
+  }
+  FireSiteMap site_;
   std::string moved_;
   const Pose2& by_;
-  std::map<std::string, Eigen::Isometry3d> first_;  ///< as configured
-  std::optional<PlaceCheck> answer_;
 };
 
 /// Carries the robot back at once.

@@ -12,6 +12,7 @@
 #include "common/geom/frames.h"
 #include "robot/app/mission_control.h"
 #include "robot/app/robot_settings.h"
+#include "robot/app/safety_files.h"
 #include "robot/app/state_history.h"
 #include "robot/app/telemetry_hub.h"
 #include "robot/app/trajectory_log.h"
@@ -40,6 +41,7 @@ struct TestRobot::Impl {
   void control(Stamp now);
   void mission(Stamp now);
   void look();
+  [[nodiscard]] std::deque<ScanWindow::Entry> lidarScans() const;
   void carryToStart();
   [[nodiscard]] Stamp now() const { return clock_.now(); }
   [[nodiscard]] Pose2 pose() const { return base_device_.truePose(); }
@@ -55,6 +57,7 @@ struct TestRobot::Impl {
   RobotSettings settings_;
   RobotGeometry geometry_;
   ArenaMap arena_;
+  FireSiteMap site_;
   StopLatch stop_;
   FakeArm arm_device_;
   FakeBase base_device_;
@@ -63,7 +66,7 @@ struct TestRobot::Impl {
   ArmController arm_;
   PumpController pumps_;
   StateHistory history_;
-  FakeSurroundings boxes_;
+  PlaceScans scans_;
   FakeReferee referee_;
   HotPlate plate_;
   DriveTo drive_;
@@ -95,16 +98,17 @@ struct TestRobot::Impl {
 TestRobot::Impl::Impl(TestRobot& robot)
     : robot_(robot),
       geometry_(value(loadResource<RobotGeometry>(settings_.geometry))),
-      arena_(value(loadResource<ArenaMap>(settings_.arena))),
+      arena_(value(loadArena(settings_.arena))),
+      site_(value(loadFireSite(arena_))),
       arm_device_(clock_, geometry_, RobotGeometry::radians(geometry_.q_park_deg)),
       base_device_(clock_, geometry_),
       pumps_device_(clock_),
       base_(settings_.base, geometry_, base_device_, stop_),
       arm_(settings_.arm, geometry_, arm_device_, stop_),
       pumps_(settings_.pumps, pumps_device_, stop_),
-      boxes_(clock_, arena_.fire_places[kBurning].name, robot_.misplaced),
+      scans_(site_, site_.places[kBurning].name, robot_.misplaced),
       referee_([this] { carryToStart(); }),
-      plate_(arena_.fire_places[kBurning]),
+      plate_(site_.places[kBurning]),
       drive_(settings_.drive_to, arena_, base_, [this] { return pose(); }),
       move_arm_(settings_.move_arm, geometry_, arena_, arm_, arm_device_,
                 [this] { return pose(); }),
@@ -116,7 +120,8 @@ TestRobot::Impl::Impl(TestRobot& robot)
   mission_ = value(findMission("fire")->make(
       *settings_.missions.find("fire"), "test-uuid",
       {clock_, executor_, arena_, geometry_, belief_, drive_, move_arm_, arm_device_, pumps_,
-       [this] { return pose(); }, boxes_, [this](Stamp stamp) { return flangeAt(stamp); },
+       [this] { return pose(); }, [this] { return lidarScans(); },
+       [this](Stamp stamp) { return flangeAt(stamp); },
        [this](const ThermalImagePtr& image) { thermal_ = image; },
        [this](MissionDetail detail) {
          stream_ = std::make_shared<const MissionDetail>(std::move(detail));
@@ -158,6 +163,12 @@ TestRobot::Impl::Impl(TestRobot& robot)
                   [this](Stamp t) { mission(t); });
   executor_.every(fromSeconds(kImagePeriod_s), "thermal", kPriorityMission,
                   [this](Stamp) { look(); });
+}
+
+std::deque<ScanWindow::Entry> TestRobot::Impl::lidarScans() const {
+  return scans_.look(
+      now(), toIsometry(pose()),
+      geometry_.X_base_flange(arm_device_.state()->q) * geometry_.X_flange_lidar.pose());
 }
 
 void TestRobot::Impl::control(Stamp now) {

@@ -78,17 +78,17 @@ LinkedOperator::LinkedOperator(OperatorSession::Config config) {
     fates_[update.nonce] = update;
     updates_.push_back(update);
   };
-  callbacks.on_status = [this, count](const RobotStatus& status, const Arrival&) {
+  callbacks.topics.on<Topic::RobotStatus>() = [this, count](const auto& status, const Arrival&) {
     count(Topic::RobotStatus);
     const std::lock_guard lock(mutex);
-    status_ = status;
+    status_ = *status;
   };
-  callbacks.on_fsm_info = [this, count](const FsmInfo& info, const Arrival&) {
+  callbacks.topics.on<Topic::FsmInfo>() = [this, count](const auto& info, const Arrival&) {
     count(Topic::FsmInfo);
     const std::lock_guard lock(mutex);
-    fsm_info = info;
+    fsm_info = *info;
   };
-  callbacks.on_cloud = [this, count](PointCloudPtr value, const Arrival&) {
+  callbacks.topics.on<Topic::Cloud>() = [this, count](PointCloudPtr value, const Arrival&) {
     count(Topic::Cloud);
     const std::lock_guard lock(mutex);
     cloud = std::move(value);

@@ -92,7 +92,7 @@ void addPlace(const FirePlaceInfo& place, bool named_by_fire, std::vector<SceneI
   };
   add(circle(kPlateRadius_m, place.p_map, side, up));
   add({place.p_map, tip});
-  add({tip - 0.08 * away + 0.06 * side, tip, tip - 0.08 * away - 0.06 * side});
+  out.back().shape = SceneItem::Shape::Arrow;
   add({place.p_map, Eigen::Vector3d(place.p_map.x(), place.p_map.y(), 0.0)});
   Eigen::Isometry3d X = frontOf(place);
   X.translation().z() = kGround_m;

@@ -30,7 +30,7 @@ QString offsetText(const PlaceCheck& check) {
 
 PlaceNudge::PlaceNudge(StationModels& models, QObject* parent) : QObject(parent), models_(models) {
   connect(&models_.scene, &Model::changed, this, &PlaceNudge::follow);
-  connect(&models_.commands, &CommandTracker::progressed, this, &PlaceNudge::onProgress);
+  connect(&models_.commands, &CommandModel::progressed, this, &PlaceNudge::onProgress);
 }
 
 QStringList PlaceNudge::places() const {
@@ -138,8 +138,8 @@ void PlaceNudge::cancel() {
 
 void PlaceNudge::onProgress(const TrackedCommand& command) {
   if (command.nonce != nonce_ || nonce_ == 0) return;
-  if (command.bad()) refusal_ = toText(command.phase) + QStringLiteral(": ") + command.reason;
-  if (command.phase == CommandPhase::Done && command.name == QLatin1String(fire::kNudgePlace))
+  if (command.bad()) refusal_ = toText(command.state) + QStringLiteral(": ") + command.reason;
+  if (command.state == CommandState::Done && command.name == QLatin1String(fire::kNudgePlace))
     wish_ = {};
   emit changed();
 }

@@ -105,6 +105,15 @@ void PlacePanel::toggle() {
   refresh();
 }
 
+bool PlacePanel::open(const SceneItem& item) {
+  const QString name = QString::fromStdString(item.id);
+  if (!nudge_.place(name)) return false;
+  nudge_.select(name);
+  opened_ = true;
+  refresh();
+  return true;
+}
+
 std::vector<SceneItem> PlacePanel::ghosts() const {
   constexpr double kGhost_px = 2.5;
   const FirePlaceInfo* place = nudge_.hasWish() ? nudge_.place(nudge_.selected()) : nullptr;

@@ -24,6 +24,7 @@ class PlacePanel : public SceneCard {
     return tr("fire places: configured against sensed, and to move one");
   }
   void toggle() override;
+  bool open(const SceneItem& item) override;
   void cancel() override { nudge_.cancel(); }
   [[nodiscard]] std::vector<SceneItem> ghosts() const override;
   [[nodiscard]] std::optional<Eigen::Vector2d> subject() const override;

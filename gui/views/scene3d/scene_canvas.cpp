@@ -11,8 +11,9 @@
 namespace kiln::gui {
 
 namespace {
+constexpr int kClick_px = 4;       ///< a press that moves farther is a drag
 constexpr double kBehind_s = 1.0;  ///< a picture under way for longer is told of
-}
+}  // namespace
 
 SceneCanvas::SceneCanvas(const Ui& ui, const RobotShape& shape, Config config, bool open_gl,
                          QWidget* parent)
@@ -136,7 +137,7 @@ void SceneCanvas::paintEvent(QPaintEvent*) {
 void SceneCanvas::resizeEvent(QResizeEvent*) { want(); }
 
 void SceneCanvas::mousePressEvent(QMouseEvent* event) {
-  last_mouse_ = event->pos();
+  last_mouse_ = pressed_at_ = event->pos();
   if (!pointing_ || event->button() != Qt::LeftButton) return;
   if (const auto p = groundAt(event->pos())) emit groundPressed(p->x(), p->y());
 }
@@ -155,6 +156,15 @@ void SceneCanvas::mouseMoveEvent(QMouseEvent* event) {
     camera_.pan(d.x(), d.y(), height());
   want();
   if (camera_.mode() != before) emit cameraModeChanged();  // its listeners restyle buttons: dear
+}
+
+/// A press that did not drag is a click.
+void SceneCanvas::mouseReleaseEvent(QMouseEvent* event) {
+  if (pointing_ || event->button() != Qt::LeftButton) return;
+  if ((event->pos() - pressed_at_).manhattanLength() > kClick_px) return;
+  const SceneItem* item =
+      itemAt(snapshot_, render_ ? frame_.camera : camera_, size(), event->pos());
+  if (item) emit itemClicked(SceneItem(*item));
 }
 
 void SceneCanvas::mouseDoubleClickEvent(QMouseEvent*) {

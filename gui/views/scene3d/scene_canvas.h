@@ -46,6 +46,7 @@ class SceneCanvas : public QWidget {
  signals:
   void groundPressed(double x_m, double y_m);  ///< in map; only while pointing
   void groundDragged(double x_m, double y_m);
+  void itemClicked(const kiln::SceneItem& item);  ///< one with a label; not while pointing
   void cameraModeChanged();
   void drawn();  ///< a new picture is on the screen
 
@@ -54,6 +55,7 @@ class SceneCanvas : public QWidget {
   void resizeEvent(QResizeEvent* event) override;
   void mousePressEvent(QMouseEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
   void mouseDoubleClickEvent(QMouseEvent* event) override;
   void wheelEvent(QWheelEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
@@ -81,7 +83,7 @@ class SceneCanvas : public QWidget {
   std::uint64_t pictures_ = 0;
   double render_ms_ = 0.0;  ///< of all of them
   bool under_way_ = false, wanted_ = false, placed_ = false;
-  QPoint last_mouse_;
+  QPoint last_mouse_, pressed_at_;
 };
 
 }  // namespace kiln::gui

@@ -18,6 +18,8 @@ class SceneCard : public QFrame {
   [[nodiscard]] virtual QString keyTip() const = 0;
   /// Opened by the operator, or closed.
   virtual void toggle() = 0;
+  /// Opens on what the operator clicked in the scene. @return false: not a thing of this card.
+  virtual bool open(const SceneItem& /*item*/) { return false; }
   /// Forgets what is not sent yet (Escape).
   virtual void cancel() = 0;
   /// What the operator is about to do, in map.

@@ -12,6 +12,7 @@ namespace {
 
 constexpr int kPadding = 7, kOffset = 26;
 constexpr double kRing_px = 9.0;
+constexpr double kFinger_px = 24.0;
 
 QColor qt(Rgb c, int alpha = 255) { return {c.r, c.g, c.b, alpha}; }
 
@@ -93,6 +94,22 @@ ItemCard itemCard(const SceneItem& item) {
       item.shape == SceneItem::Shape::Estimate ? ellipsoidExaggeration(item.covariance) : 1.0;
   if (factor > 1.0) card.detail += QStringLiteral(", 2σ drawn ×%1").arg(factor, 0, 'f', 0);
   return card;
+}
+
+const SceneItem* itemAt(const SceneSnapshot& snapshot, const OrbitCamera& camera, const QSize& size,
+                        const QPointF& at) {
+  const SceneItem* nearest = nullptr;
+  double best_px = kFinger_px;
+  for (const SceneItem& item : snapshot.items) {
+    if (item.label.empty() || !snapshot.layer(item.layer).visible) continue;
+    const auto p = camera.project(item.X_map_item.translation(), size.width(), size.height());
+    if (!p) continue;
+    const double away_px = std::hypot(p->x() - at.x(), p->y() - at.y());
+    if (away_px > best_px) continue;
+    best_px = away_px;
+    nearest = &item;
+  }
+  return nearest;
 }
 
 void paintSceneLabels(QPainter& painter, const SceneSnapshot& snapshot, const OrbitCamera& camera,

@@ -12,6 +12,7 @@ namespace kiln::gui {
 namespace {
 
 constexpr double kGround_m = 0.02;
+constexpr double kArrowHead_m = 0.3;
 constexpr double kLeastShown_m = 0.05;  // smaller uncertainties hide under the robot
 constexpr double kHalfLength_m = 0.95,
                  kHalfWidth_m = 0.7;  // of the base (data sheet in hardware.md)
@@ -47,11 +48,42 @@ std::vector<Eigen::Vector3d> closed(const Eigen::Isometry3d& X, double x0, doubl
   return out;
 }
 
+/// The head lies flat.
+void paintArrow(const Sheet& s, const std::vector<Eigen::Vector3d>& points) {
+  s.line(points);
+  if (points.size() < 2) return;
+  const Eigen::Vector3d tip = points.back(), way = tip - points[points.size() - 2];
+  const double length = way.norm();
+  if (!(length > 0.0)) return;
+  const Eigen::Vector3d along = way / length;
+  Eigen::Vector3d side = along.cross(Eigen::Vector3d::UnitZ());
+  if (side.norm() < 1e-6) side = Eigen::Vector3d::UnitX();
+  const double head = std::min(0.25 * length, kArrowHead_m);
+  const Eigen::Vector3d across = 0.5 * head * side.normalized();
+  s.line({tip - head * along + across, tip, tip - head * along - across});
+}
+
+void paintCylinder(const Sheet& s, const Eigen::Isometry3d& X, const Eigen::Vector3d& half) {
+  constexpr int kSteps = 36, kStaves = 4;
+  const auto at = [&](int i, double z) {
+    const double a = 2.0 * M_PI * i / kSteps;
+    return X * Eigen::Vector3d(half.x() * std::cos(a), half.y() * std::sin(a), z);
+  };
+  for (const double z : {-half.z(), half.z()}) {
+    std::vector<Eigen::Vector3d> ring;
+    for (int i = 0; i <= kSteps; ++i) ring.push_back(at(i, z));
+    s.line(ring);
+  }
+  for (int i = 0; i < kSteps; i += kSteps / kStaves) s.line({at(i, -half.z()), at(i, half.z())});
+}
+
 void paintItem(const Sheet& s, const SceneItem& item) {
   if (item.shape == SceneItem::Shape::Polyline) return s.line(item.points);
-  if (item.shape != SceneItem::Shape::Box) return;
+  if (item.shape == SceneItem::Shape::Arrow) return paintArrow(s, item.points);
   const Eigen::Isometry3d& X = item.X_map_item;
   const Eigen::Vector3d h = 0.5 * item.size;
+  if (item.shape == SceneItem::Shape::Cylinder) return paintCylinder(s, X, h);
+  if (item.shape != SceneItem::Shape::Box) return;
   for (const double z : {-h.z(), h.z()}) s.line(closed(X, -h.x(), h.x(), -h.y(), h.y(), z));
   for (const double x : {-h.x(), h.x()}) {
     for (const double y : {-h.y(), h.y()})

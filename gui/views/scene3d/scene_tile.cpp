@@ -87,6 +87,7 @@ SceneTile::SceneTile(const Ui& ui, StationModels& models, RobotGeometry geometry
 
 void SceneTile::addCard(SceneCard* card) {
   cards_.push_back(card);
+  connect(canvas_, &SceneCanvas::itemClicked, card, &SceneCard::open);
   QToolButton* key = addTool(*card_keys_, card->keyText());
   setTip(*key, card->keyTip());
   connect(key, &QToolButton::clicked, card, &SceneCard::toggle);

@@ -12,8 +12,8 @@ QString ageOrNone(double age_s) {
 HoldToRun::HoldToRun(StationModels& models, Config config, QObject* parent)
     : QObject(parent), models_(models), config_(config) {
   connect(&renew_, &QTimer::timeout, this, &HoldToRun::renew);
-  connect(&models_.link, &Link::ack, this, [this](const CommandAck& ack) {
-    if (ack.code == "press_over" && holding())
+  connect(&models_.link, &Link::command, this, [this](const CommandUpdate& update) {
+    if (update.code == "press_over" && holding())
       releaseAll(tr("the robot has ended this hold: let go and press again"));
   });
 }

@@ -24,8 +24,8 @@ void paintMark(QPainter& painter, const QPointF& c, const TrackedCommand& comman
 }
 
 QString textOf(const TrackedCommand& command) {
-  const bool well = command.phase == CommandPhase::Done || command.phase == CommandPhase::Accepted;
-  return well ? command.label : command.label + QStringLiteral(" · ") + toText(command.phase);
+  const bool well = command.state == CommandState::Done || command.state == CommandState::Accepted;
+  return well ? command.label : command.label + QStringLiteral(" · ") + toText(command.state);
 }
 }  // namespace
 

@@ -4,7 +4,7 @@
 #include <deque>
 #include <functional>
 
-#include "gui/models/command_tracker.h"
+#include "gui/models/command_model.h"
 #include "gui/widgets/theme.h"
 
 class QPainter;

@@ -19,14 +19,17 @@ MoveArm::Config motionConfig(const CalibrationRig::Config& config) {
 
 /// The robot was put down by eye, and so was the plate: the arm keeps away from where things may
 /// be.
-ArenaMap withRoomForError(ArenaMap yard) {
+ArenaMap withRoomForError(const CalibrationYard& yard) {
   constexpr double kError_m = 0.3;
-  yard.box_size_m += 2.0 * kError_m;
-  yard.table_size_m += 2.0 * kError_m;
-  yard.recess_m += kError_m;
-  for (BoxConfig& wall : yard.walls)
+  FireSiteMap site = yard.site;
+  site.box_size_m += 2.0 * kError_m;
+  site.table_size_m += 2.0 * kError_m;
+  site.recess_m += kError_m;
+  ArenaMap arena = yard.arena;
+  arena.fixtures[kFireSite] = site.fixtures();
+  for (BoxConfig& wall : arena.walls)
     for (double& side : wall.size_m) side += 2.0 * kError_m;
-  return yard;
+  return arena;
 }
 
 }  // namespace
@@ -41,7 +44,7 @@ double spread(int n, int prime, double limit) {
 }
 
 CalibrationRig::CalibrationRig(const Config& config, const RobotGeometry& nominal,
-                               const ArenaMap& yard, CalibrationDevices devices)
+                               const CalibrationYard& yard, CalibrationDevices devices)
     : config_(config),
       nominal_(nominal),
       yard_(yard),
@@ -50,7 +53,7 @@ CalibrationRig::CalibrationRig(const Config& config, const RobotGeometry& nomina
       arm_({}, nominal_, devices_.arm, stop_),
       pumps_({}, devices_.pumps, stop_),
       mover_(motionConfig(config), nominal_, planned_yard_, arm_, devices_.arm,
-             [this] { return yard_.start.pose(); }) {}
+             [this] { return yard_.arena.start.pose(); }) {}
 
 CalibrationRig::~CalibrationRig() {
   if (auto off = devices_.pumps.write({0.0, 0.0}); !off)
@@ -185,13 +188,13 @@ Result<PumpTracking> CalibrationRig::pumps() const {
 }
 
 Eigen::Isometry3d CalibrationRig::X_base_map() const {
-  return toIsometry(inverse(yard_.start.pose()));
+  return toIsometry(inverse(yard_.arena.start.pose()));
 }
 
 void CalibrationRig::placeWall(const std::string& name, const Eigen::Isometry3d& X_base_box) {
-  for (std::size_t i = 0; i < yard_.walls.size(); ++i) {
-    if (yard_.walls[i].name != name) continue;
-    planned_yard_.walls[i] = yard_.walls[i];
+  for (std::size_t i = 0; i < yard_.arena.walls.size(); ++i) {
+    if (yard_.arena.walls[i].name != name) continue;
+    planned_yard_.walls[i] = yard_.arena.walls[i];
     planned_yard_.walls[i].center = poseConfig(X_base_map().inverse() * X_base_box);
   }
 }

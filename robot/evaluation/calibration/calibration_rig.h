@@ -9,6 +9,7 @@
 #include "robot/hal/lidar.h"
 #include "robot/hal/rgb_camera.h"
 #include "robot/hal/thermal_camera.h"
+#include "robot/scene/fire_site_map.h"
 #include "robot/skills/move_arm.h"
 
 namespace kiln {
@@ -25,6 +26,12 @@ struct CalibrationDevices {
   std::function<Result<void>()> step;
 };
 
+/// Where it stands, as configured.
+struct CalibrationYard {
+  ArenaMap arena;
+  FireSiteMap site;  ///< the first place is the hot plate
+};
+
 /// The robot at rest in the yard, as the parts of the calibration use it: time passes, the arm goes
 /// from posture to posture, the newest frame of a sensor is awaited, the pumps run and stop. The
 /// pump board gets its heartbeat, zeros, whenever nothing is sprayed; when the rig ends the pumps
@@ -35,7 +42,7 @@ class CalibrationRig {
     double speed_scale = 0.5;  ///< of the joint limits; the base stands, nobody is near
     double settle_s = 0.3;     ///< after a motion, before anything is measured
   };
-  CalibrationRig(const Config& config, const RobotGeometry& nominal, const ArenaMap& yard,
+  CalibrationRig(const Config& config, const RobotGeometry& nominal, const CalibrationYard& yard,
                  CalibrationDevices devices);
   ~CalibrationRig();
   CalibrationRig(const CalibrationRig&) = delete;
@@ -71,7 +78,8 @@ class CalibrationRig {
 
   [[nodiscard]] const RobotGeometry& nominal() const { return nominal_; }
   /// The yard as its map says, and from where the robot was thought to start.
-  [[nodiscard]] const ArenaMap& yard() const { return yard_; }
+  [[nodiscard]] const ArenaMap& yard() const { return yard_.arena; }
+  [[nodiscard]] const FirePlaceConfig& plate() const { return yard_.site.places.front(); }
   [[nodiscard]] Eigen::Isometry3d X_base_map() const;
   [[nodiscard]] const Clock& clock() const { return devices_.clock; }
   /// The arm plans with this box where it was found, in base, instead of keeping clear of all
@@ -81,7 +89,7 @@ class CalibrationRig {
  private:
   const Config config_;
   const RobotGeometry nominal_;
-  const ArenaMap yard_;
+  const CalibrationYard yard_;
   CalibrationDevices devices_;
   ArenaMap planned_yard_;
   StopLatch stop_;

@@ -80,10 +80,10 @@ Result<CalibrationResult> summed(const RobotGeometry& nominal, const LidarCalibr
 }  // namespace
 
 Result<CalibrationResult> calibrateRobot(const CalibrationRoutineConfig& config,
-                                         const RobotGeometry& nominal, const ArenaMap& yard,
+                                         const RobotGeometry& nominal, const CalibrationYard& yard,
                                          CalibrationDevices devices) {
-  if (yard.fire_places.empty())
-    return makeError(ErrorCode::InvalidInput, "the yard's map has no hot plate (fire_places)");
+  if (yard.site.places.empty())
+    return makeError(ErrorCode::InvalidInput, "the yard's map has no hot plate (sites)");
   CalibrationRig rig(config.rig, nominal, yard, std::move(devices));
   const auto tell = [&rig](const char* what) {
     logger("calibrate")->info("{} at {:.0f} s", what, toSeconds(rig.clock().now()));

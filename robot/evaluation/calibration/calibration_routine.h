@@ -38,7 +38,7 @@ struct CalibrationRoutineConfig {
 /// camera that cannot be calibrated stays nominal.
 [[nodiscard]] Result<CalibrationResult> calibrateRobot(const CalibrationRoutineConfig& config,
                                                        const RobotGeometry& nominal,
-                                                       const ArenaMap& yard,
+                                                       const CalibrationYard& yard,
                                                        CalibrationDevices devices);
 
 }  // namespace kiln

@@ -13,7 +13,7 @@ namespace {
 class PlateWatch {
  public:
   PlateWatch(CalibrationRig& rig, const ThermalPartConfig& config) : rig_(rig), config_(config) {
-    const FirePlaceConfig& place = rig.yard().fire_places.front();
+    const FirePlaceConfig& place = rig.plate();
     const auto& p = place.plate_xyz_m;
     plate_ = rig.X_base_map() * Eigen::Vector3d(p[0], p[1], p[2]);
     const double yaw = place.facing_deg * kDeg - rig.yard().start.pose().yaw_rad;

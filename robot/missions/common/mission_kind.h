@@ -24,6 +24,8 @@ struct MissionKind {
       const MissionConfig& config, const std::string& mission_uuid, const MissionParts& parts)>
       make;
   DeviceSet needs{};  ///< without them it does not start
+  /// What its site puts into the arena, whichever mission runs; empty: it has no site of its own.
+  std::function<Result<SiteFixtures>(const ArenaMap& arena)> site{};
 };
 
 }  // namespace kiln

@@ -10,9 +10,9 @@
 #include "common/robot_model/robot_geometry.h"
 #include "robot/control/pump_controller.h"
 #include "robot/hal/arm.h"
+#include "robot/perception/cloud/scan_window.h"
 #include "robot/scene/arena_map.h"
 #include "robot/skills/motion.h"
-#include "robot/skills/surroundings.h"
 #include "robot/world_model/robot_belief.h"
 
 namespace kiln {
@@ -29,7 +29,8 @@ struct MissionParts {
   const Arm& arm_device;  ///< joints and safety mode
   PumpController& pumps;
   std::function<Pose2()> pose;  ///< newest X_map_base
-  Surroundings& surroundings;   ///< the live cloud
+  /// Prepared scans of the last seconds, oldest first.
+  std::function<std::deque<ScanWindow::Entry>()> scans;
   /// Where the flange was in map at a stamp of the last seconds; nullopt: not known.
   std::function<std::optional<Eigen::Isometry3d>(Stamp)> X_map_flange;
   /// To the stations and the recording.

@@ -98,19 +98,4 @@ std::optional<Pose2> runUp(const ApproachConfig& approach, const RobotGeometry& 
   return Pose2{here.x_m - back_m, here.y_m, here.yaw_rad};
 }
 
-std::vector<Pose2> routeToPlace(const ArenaMap& arena, const Pose2& here, int from_place,
-                                int to_place, double radius_m) {
-  std::vector<Pose2> route;
-  if (from_place >= 0 && from_place != to_place) {
-    const auto& via = arena.fire_places[static_cast<std::size_t>(from_place)].via;
-    for (auto it = via.rbegin(); it != via.rend(); ++it) route.push_back(it->pose());
-    if (!arena.entry_path.empty()) route.push_back(arena.entry_path.back().pose());
-  }
-  const FirePlaceConfig& place = arena.fire_places[static_cast<std::size_t>(to_place)];
-  if (from_place != to_place)
-    for (const GroundPoseConfig& way_point : place.via) route.push_back(way_point.pose());
-  route.push_back(place.work_pose.pose());
-  return shortened(arena, here, route, radius_m);
-}
-
 }  // namespace kiln

@@ -10,7 +10,7 @@
 namespace kiln {
 
 /// True when a disc of `radius_m` can move straight from a to b without touching walls, furniture
-/// or fire tables of the nominal map.
+/// or what stands at a site of the nominal map.
 [[nodiscard]] bool straightIsClear(const ArenaMap& arena, const Pose2& a, const Pose2& b,
                                    double radius_m);
 
@@ -28,10 +28,5 @@ namespace kiln {
 /// against the edge of the approach spins and does not climb. nullopt: none does.
 [[nodiscard]] std::optional<Pose2> runUp(const ApproachConfig& approach, const RobotGeometry& robot,
                                          const Pose2& here, const Pose2& to);
-
-/// From inside the building to the work pose of a place. When `from_place` >= 0 its way-points lead
-/// back to the hub.
-[[nodiscard]] std::vector<Pose2> routeToPlace(const ArenaMap& arena, const Pose2& here,
-                                              int from_place, int to_place, double radius_m);
 
 }  // namespace kiln

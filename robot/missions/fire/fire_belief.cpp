@@ -7,9 +7,9 @@
 
 namespace kiln {
 
-FireBelief initialFireBelief(const ArenaMap& arena) {
+FireBelief initialFireBelief(const FireSiteMap& site) {
   FireBelief belief;
-  for (const FirePlaceConfig& config : arena.fire_places) {
+  for (const FirePlaceConfig& config : site.places) {
     FirePlace place;
     place.name = config.name;
     place.p_plate_map = {config.plate_xyz_m[0], config.plate_xyz_m[1], config.plate_xyz_m[2]};

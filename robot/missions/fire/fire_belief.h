@@ -10,7 +10,7 @@
 #include "common/core/error.h"
 #include "common/geom/pose.h"
 #include "common/wire/fire/fire_model.h"
-#include "robot/scene/arena_map.h"
+#include "robot/scene/fire_site_map.h"
 
 namespace kiln {
 
@@ -62,7 +62,7 @@ struct FireBelief {
 };
 
 /// The arena's places, nothing known of them.
-[[nodiscard]] FireBelief initialFireBelief(const ArenaMap& arena);
+[[nodiscard]] FireBelief initialFireBelief(const FireSiteMap& site);
 
 [[nodiscard]] nlohmann::json fireBeliefToJson(const FireBelief& belief);
 /// @param places  how many the arena has.

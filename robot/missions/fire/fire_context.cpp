@@ -17,7 +17,8 @@ constexpr double kAtWorkPose_m = 0.5;  // near enough to reach the place with th
 FireContext::FireContext(const FireDevices& fire_devices, const FireConfig& fire_config)
     : devices(fire_devices),
       config(fire_config),
-      belief(initialFireBelief(fire_devices.arena)),
+      site(fire_devices.site),
+      belief(initialFireBelief(site)),
       heat(fire_devices.heat),
       warming(fire_config.search.warming),
       look(fire_config.search.motion, fire_devices.robot, fire_devices.arm),
@@ -31,8 +32,13 @@ const FirePlace& FireContext::place() const {
 
 FirePlace& FireContext::place() { return const_cast<FirePlace&>(std::as_const(*this).place()); }
 
+void FireContext::placeMoved(std::size_t index) {
+  site.movePlace(index, belief.places[index].p_plate_map, belief.places[index].facing_rad);
+  devices.arena.fixtures[kFireSite] = site.fixtures();
+}
+
 Eigen::Isometry3d FireContext::placeFront() const {
-  return devices.arena.front(place().p_plate_map, place().facing_rad);
+  return site.front(place().p_plate_map, place().facing_rad);
 }
 
 std::string FireContext::whyNoPlace() const {
@@ -84,7 +90,7 @@ std::optional<FireEstimate> FireContext::estimate() {
 }
 
 AimTarget FireContext::aimTarget(const FireEstimate& fire) const {
-  return {fire.p_map, placeNormal(), devices.arena.recess_m};
+  return {fire.p_map, placeNormal(), site.recess_m};
 }
 
 double FireContext::flowScale() const {
@@ -115,7 +121,7 @@ bool FireContext::atSprayPose() const {
 bool FireContext::atWorkPose() const {
   const int index = belief.current_place;
   if (index < 0) return false;
-  const Pose2 work = devices.arena.fire_places[static_cast<std::size_t>(index)].work_pose.pose();
+  const Pose2 work = site.places[static_cast<std::size_t>(index)].work_pose.pose();
   const Pose2 here = devices.pose();
   return std::hypot(here.x_m - work.x_m, here.y_m - work.y_m) <= kAtWorkPose_m;
 }

@@ -11,12 +11,16 @@
 #include "robot/missions/fire/fire_config.h"
 #include "robot/missions/fire/skills/heat_watch.h"
 #include "robot/missions/fire/skills/look_around.h"
+#include "robot/missions/fire/skills/place_look.h"
+#include "robot/scene/fire_site_map.h"
 
 namespace kiln {
 
 /// What the fire mission works with; all outlive it.
 struct FireDevices : MissionParts {
-  HeatSweep& heat;  ///< HeatLocalizer behind an adapter
+  HeatSweep& heat;        ///< HeatLocalizer behind an adapter
+  PlaceLook& place_look;  ///< PlaceTask
+  FireSiteMap site;       ///< as configured
   SprayCalibration calibration;
 };
 
@@ -28,6 +32,7 @@ class FireContext {
   const FireDevices devices;
   const FireConfig config;
   const SprayCalibration& calibration = devices.calibration;
+  FireSiteMap site;  ///< where everything is believed to stand now
   FireBelief belief;
   HeatWatch heat;
   WarmingTrend warming;  ///< of the present sweep
@@ -53,6 +58,8 @@ class FireContext {
   [[nodiscard]] FirePlace& place();
   [[nodiscard]] const FirePlace& place() const;
   [[nodiscard]] bool hasPlace() const { return belief.currentPlace() != nullptr; }
+  /// What is known of a place has moved it: site and arena follow.
+  void placeMoved(std::size_t index);
   /// Where the current place's front is believed to be.
   [[nodiscard]] Eigen::Isometry3d placeFront() const;
   /// For State::denyEntry.

@@ -40,8 +40,9 @@ double scoreEstimate(const FireBelief& belief) {
 
 struct FireMission::Impl {
   Impl(const FireDevices& devices, const FireConfig& config, const std::string& mission_uuid,
-       std::unique_ptr<HeatTask> heat_task)
-      : heat(std::move(heat_task)),
+       Perception perception)
+      : heat(std::move(perception.heat)),
+        place(std::move(perception.place)),
         context(devices, config),
         machine(makeFireMachine(context, mission_uuid)) {}
 
@@ -72,12 +73,8 @@ struct FireMission::Impl {
     }
   }
 
-  void placeMoved(std::size_t index) {
-    const FirePlace& place = context.belief.places[index];
-    context.devices.arena.movePlace(index, place.p_plate_map, place.facing_rad);
-  }
-
-  std::unique_ptr<HeatTask> heat;  ///< before the context, which holds its sweep
+  std::unique_ptr<HeatTask> heat;  ///< before the context, which holds what it makes
+  std::unique_ptr<PlaceTask> place;
   FireContext context;
   FireReport report;
   std::unique_ptr<Machine> machine;
@@ -86,18 +83,19 @@ struct FireMission::Impl {
 };
 
 FireMission::FireMission(const FireDevices& devices, const FireConfig& config,
-                         const std::string& mission_uuid, std::unique_ptr<HeatTask> heat)
-    : impl_(std::make_unique<Impl>(devices, config, mission_uuid, std::move(heat))) {}
+                         const std::string& mission_uuid, Perception perception)
+    : impl_(std::make_unique<Impl>(devices, config, mission_uuid, std::move(perception))) {}
 FireMission::~FireMission() = default;
 
 Machine& FireMission::machine() { return *impl_->machine; }
 const FireBelief& FireMission::belief() const { return impl_->context.belief; }
 FireBelief& FireMission::belief() { return impl_->context.belief; }
+const FireSiteMap& FireMission::siteMap() const { return impl_->context.site; }
 double FireMission::limitS() const { return impl_->context.config.clock.limit_s; }
 
 void FireMission::beginAnew(Stamp) {
   FireContext& c = impl_->context;
-  FireBelief fresh = initialFireBelief(c.devices.arena);  // the water that was sprayed is gone
+  FireBelief fresh = initialFireBelief(c.site);  // the water that was sprayed is gone
   fresh.sprayed_l_est = c.belief.sprayed_l_est;
   fresh.tank_l_est = c.belief.tank_l_est;
   c.belief = std::move(fresh);
@@ -109,6 +107,7 @@ void FireMission::beginAnew(Stamp) {
 void FireMission::observe(Stamp) {
   impl_->countWater();
   if (impl_->heat) impl_->takeHeat(*this);
+  if (impl_->place) impl_->place->tick();
   for (const auto& [name, check] : impl_->context.place_checks) impl_->report.addPlaceCheck(check);
 }
 
@@ -133,6 +132,7 @@ void FireMission::onReset(Stamp now) {
   c.belief.at_place = c.belief.current_place = -1;
   c.belief.entry_faults = c.belief.blocked_in_row = 0;
   c.aim.reset();
+  if (impl_->place) impl_->place->clear();
   c.haltAll(now);
 }
 
@@ -140,11 +140,11 @@ nlohmann::json FireMission::save() const { return fireBeliefToJson(impl_->contex
 
 Result<void> FireMission::restore(const nlohmann::json& saved) {
   FireContext& c = impl_->context;
-  auto belief = fireBeliefFromJson(saved, c.devices.arena.fire_places.size());
+  auto belief = fireBeliefFromJson(saved, c.site.places.size());
   if (!belief) return tl::make_unexpected(belief.error());
   c.belief = std::move(*belief);
   c.devices.pumps.restoreEstimate(c.belief.sprayed_l_est, c.belief.tank_l_est);
-  for (std::size_t i = 0; i < c.belief.places.size(); ++i) impl_->placeMoved(i);
+  for (std::size_t i = 0; i < c.belief.places.size(); ++i) c.placeMoved(i);
   return {};
 }
 
@@ -181,10 +181,10 @@ Result<void> FireMission::nudgePlace(const std::string& name, const Pose2& by) {
                      name, fsm.state);
   const auto index = static_cast<std::size_t>(found - places.begin());
   if (auto moved = m.context.belief.nudgePlace(index, by); !moved) return moved;
-  m.placeMoved(index);
+  m.context.placeMoved(index);
   if (const auto check = m.context.place_checks.find(name); check != m.context.place_checks.end())
     check->second.X_map_configured =
-        m.context.devices.arena.front(places[index].p_plate_map, places[index].facing_rad);
+        m.context.site.front(places[index].p_plate_map, places[index].facing_rad);
   logger("mission.fire")
       ->warn("{} was nudged by {:.2f}, {:.2f} m and {:.1f} deg", name, by.x_m, by.y_m,
              by.yaw_rad / kDeg);
@@ -216,9 +216,8 @@ MacroStepKinds FireMission::macroSteps(const MacroConfig& config) const {
 }
 
 std::optional<Pose2> FireMission::workPose(const std::string& place) const {
-  for (const FirePlaceConfig& known : impl_->context.devices.arena.fire_places)
-    if (known.name == place) return known.work_pose.pose();
-  return std::nullopt;
+  const FirePlaceConfig* known = impl_->context.site.place(place);
+  return known ? std::optional(known->work_pose.pose()) : std::nullopt;
 }
 
 std::vector<MissionAlarm> FireMission::alarms(Stamp now) const {

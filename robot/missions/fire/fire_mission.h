@@ -7,6 +7,7 @@
 #include "robot/missions/common/mission.h"
 #include "robot/missions/fire/fire_context.h"
 #include "robot/missions/fire/heat_task.h"
+#include "robot/missions/fire/place_task.h"
 
 namespace kiln {
 
@@ -14,9 +15,15 @@ namespace kiln {
 /// one after the other. Confined to the mission thread, except onThermal().
 class FireMission final : public Mission {
  public:
-  /// @param heat  nullptr: detections are handed to onDetections() by the caller.
+  /// What it makes of pictures and scans; whoever leaves them out answers for them.
+  struct Perception {
+    std::unique_ptr<HeatTask> heat{};    ///< nullptr: the caller hands detections to onDetections()
+    std::unique_ptr<PlaceTask> place{};  ///< nullptr: FireDevices::place_look answers by itself
+  };
   FireMission(const FireDevices& devices, const FireConfig& config, const std::string& mission_uuid,
-              std::unique_ptr<HeatTask> heat = nullptr);
+              Perception perception);
+  FireMission(const FireDevices& devices, const FireConfig& config, const std::string& mission_uuid)
+      : FireMission(devices, config, mission_uuid, Perception{}) {}
   ~FireMission() override;
 
   [[nodiscard]] Machine& machine() override;
@@ -53,6 +60,8 @@ class FireMission final : public Mission {
   [[nodiscard]] FireBelief& belief();
   /// Newest comparison of each place, as configured and nudged, with the live cloud.
   [[nodiscard]] std::vector<PlaceCheck> placeChecks() const;
+  /// Where the places stand as it believes now.
+  [[nodiscard]] const FireSiteMap& siteMap() const;
   [[nodiscard]] FireSite site(Stamp now) const;
 
  private:

@@ -28,15 +28,12 @@ class AimStep final : public ArmMacroStep {
 
  private:
   Result<void> begin(Stamp now) override {
-    const ArenaMap& arena = context_.devices.arena;
-    const auto place = std::find_if(arena.fire_places.begin(), arena.fire_places.end(),
-                                    [&](const auto& p) { return p.name == place_; });
-    if (place == arena.fire_places.end())
-      return makeError(ErrorCode::NotFound, "the arena has no fire place '{}'", place_);
+    const FirePlaceConfig* place = context_.site.place(place_);
+    if (!place) return makeError(ErrorCode::NotFound, "the arena has no fire place '{}'", place_);
     const double yaw = place->facing_deg * kDeg;
     const AimTarget target{{place->plate_xyz_m[0], place->plate_xyz_m[1], place->plate_xyz_m[2]},
                            {std::cos(yaw), std::sin(yaw), 0.0},
-                           arena.recess_m};
+                           context_.site.recess_m};
     AimSolverConfig solver = context_.config.aim.solver;
     solver.standoff_m = std::clamp(standoff_m_, solver.min_standoff_m, solver.max_standoff_m);
     const auto solution = solveAim(target, solver, context_.calibration, flowScale(),

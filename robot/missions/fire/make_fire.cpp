@@ -9,28 +9,40 @@ namespace {
 struct FireSection {
   FireConfig mission;
   HeatTask::Config heat;
+  PlaceTask::Config place;
   std::string spray_calibration = "config/spray_calibration.yaml";
   void visit(ConfigArchive& a) {
     mission.visit(a);
     a.section("heat", heat, "where the heat is");
+    a.section("place", place, "where a fire box stands");
     a.field("spray_calibration", spray_calibration,
             "resource file written by kiln-eval spray-calibration");
   }
 };
 
+Result<SiteFixtures> fireFixtures(const ArenaMap& arena) {
+  const auto site = loadFireSite(arena);
+  if (!site) return tl::make_unexpected(site.error());
+  return site->fixtures();
+}
+
 Result<std::unique_ptr<Mission>> makeFire(const MissionConfig& config,
                                           const std::string& mission_uuid,
                                           const MissionParts& parts) {
   const FireSection& section = static_cast<const MissionConfigOf<FireSection>&>(config).value;
-  if (parts.arena.fire_places.empty())
+  const auto site = loadFireSite(parts.arena);
+  if (!site) return tl::make_unexpected(site.error());
+  if (site->places.empty())
     return makeError(ErrorCode::InvalidInput,
-                     "arena '{}' has no fire_places: there is nothing to look for",
+                     "arena '{}' has no places of the fire (sites): there is nothing to look for",
                      parts.arena.name);
   const auto spray = loadSprayCalibration(section.spray_calibration);
   if (!spray) return tl::make_unexpected(spray.error());
-  auto heat = std::make_unique<HeatTask>(section.heat, parts.executor);
-  const FireDevices devices{parts, heat->sweep(), *spray};
-  return std::make_unique<FireMission>(devices, section.mission, mission_uuid, std::move(heat));
+  FireMission::Perception eyes{
+      std::make_unique<HeatTask>(section.heat, parts.executor),
+      std::make_unique<PlaceTask>(section.place, *site, parts.scans, parts.executor)};
+  const FireDevices devices{parts, eyes.heat->sweep(), *eyes.place, *site, *spray};
+  return std::make_unique<FireMission>(devices, section.mission, mission_uuid, std::move(eyes));
 }
 
 }  // namespace
@@ -42,7 +54,8 @@ MissionKind fireMissionKind() {
           "",
           [] { return std::make_unique<MissionConfigOf<FireSection>>(); },
           makeFire,
-          {DeviceKind::Pumps, DeviceKind::Lidar, DeviceKind::ThermalCamera}};
+          {DeviceKind::Pumps, DeviceKind::Lidar, DeviceKind::ThermalCamera},
+          fireFixtures};
 }
 
 }  // namespace kiln

@@ -32,7 +32,7 @@ class BoxLocator {
     double max_axis_m = 0.125;    ///< along either axis of map
     double max_offset_m = 0.145;  ///< as a distance
     double max_yaw_deg = 8.5;
-    FireBoxSizes sizes;  ///< set from the arena, not from the file
+    FireBoxSizes sizes;  ///< set from the site's map, not from the file
     void visit(ConfigArchive& a);
   };
   explicit BoxLocator(Config config);

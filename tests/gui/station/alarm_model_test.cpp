@@ -16,8 +16,8 @@ class AlarmModelTest : public testing::Test {
     status.stamp = link.time.now();
     emit link.status(std::make_shared<const RobotStatus>(status));
   }
-  void answer(AckOutcome outcome, const std::string& code = {}) {
-    emit link.ack({"me", link.sent.size(), "acknowledge_alarm", outcome, code, "why not", ""});
+  void answer(CommandState state, const std::string& code = {}) {
+    emit link.command({link.sent.size(), "acknowledge_alarm", state, code, "why not", "", 0.1});
   }
   [[nodiscard]] const AlarmModel::Entry* find(const std::string& id) const {
     for (const auto& entry : alarms.entries())
@@ -28,7 +28,7 @@ class AlarmModelTest : public testing::Test {
   Alarm caution{"lidar", AlarmLevel::Caution, "LiDAR silent", "cable", Stamp{fromSeconds(91)}};
   ScriptedLink link;
   RobotStatus status;
-  CommandTracker commands{link};
+  CommandModel commands{link};
   AlarmModel alarms{link, commands};
 };
 
@@ -38,7 +38,7 @@ TEST_F(AlarmModelTest, IsAcknowledgedWhenTheRobotSaysSo) {
   ASSERT_EQ(link.sent.size(), 1U);
   EXPECT_FALSE(find("arm")->alarm.acknowledged) << "asked is not answered";
   EXPECT_EQ(alarms.next()->alarm.id, "lidar") << "the next one can be acknowledged meanwhile";
-  answer(AckOutcome::Done);
+  answer(CommandState::Done);
   EXPECT_FALSE(find("arm")->alarm.acknowledged);
   status.alarms[0].acknowledged = true;
   tell();
@@ -48,20 +48,19 @@ TEST_F(AlarmModelTest, IsAcknowledgedWhenTheRobotSaysSo) {
 TEST_F(AlarmModelTest, ARefusedOrUnansweredAcknowledgementStaysOpen) {
   tell();
   alarms.acknowledge("arm");
-  answer(AckOutcome::Refused, "busy");
+  answer(CommandState::Refused, "busy");
   EXPECT_EQ(alarms.next()->alarm.id, "arm");
   EXPECT_EQ(alarms.unacknowledgedCount(), 2);
   alarms.acknowledge("arm");
   EXPECT_EQ(alarms.unacknowledgedCount(), 1);
-  link.time.advanceBy(fromSeconds(1.1));
-  commands.expire();
+  answer(CommandState::Unknown);
   EXPECT_EQ(alarms.next()->alarm.id, "arm") << "no answer is no acknowledgement";
 }
 
 TEST_F(AlarmModelTest, AYesThatTheRobotDoesNotKeepIsTakenBack) {
   tell();
   alarms.acknowledge("arm");
-  answer(AckOutcome::Done);
+  answer(CommandState::Done);
   tell();
   EXPECT_EQ(alarms.unacknowledgedCount(), 1);
   for (int i = 0; i < 12; ++i) tell();

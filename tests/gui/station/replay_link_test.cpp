@@ -104,7 +104,7 @@ TEST_F(ReplayLinkTest, PlaysAsAReplayAndCannotBeCommanded) {
   EXPECT_FALSE(models->mayCommand(&why));
   EXPECT_TRUE(why.contains("recording")) << why.toStdString();
   const auto nonce = models->commands.send(Pause{}, "pause");
-  EXPECT_EQ(models->commands.find(nonce)->phase, CommandPhase::NotSent);
+  EXPECT_EQ(models->commands.find(nonce)->state, CommandState::NotSent);
 }
 
 TEST_F(ReplayLinkTest, AJumpShowsThatMomentAndNothingGrowsOldWhilePaused) {

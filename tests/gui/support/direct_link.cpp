@@ -50,8 +50,10 @@ void DirectLink::runByTimer() {
 
 std::uint64_t DirectLink::send(const CommandBody& body) {
   sent_.push_back(body);
-  if (silent_ || deaf_) return ++lost_nonce_;
-  return robot_.send(kClient, kOperator, body);
+  const std::uint64_t nonce =
+      silent_ || deaf_ ? ++lost_nonce_ : robot_.send(kClient, kOperator, body);
+  (void)tracker_.sent(nonce, body, monotonic());
+  return nonce;
 }
 
 void DirectLink::startSetpoint(const CommandBody& body, std::uint64_t press) {
@@ -102,6 +104,7 @@ void DirectLink::step() {
   if (!silent_ && !deaf_) robot_heard_ = robot_.now();
   if (!silent_ && lane_.pressed) latchStop();  // kept since the link was lost
   if (tick_ % kHealthTicks == 0) publishHealth();
+  for (const CommandUpdate& update : tracker_.expire(monotonic())) emit command(update);
   if (silent_) return;
   deliverAcks();
   if (tick_ % kStatusTicks == 0) publishState();
@@ -114,7 +117,9 @@ void DirectLink::step() {
 
 void DirectLink::deliverAcks() {
   const std::vector<CommandAck> acks = robot_.takeAcks();
-  for (const CommandAck& message : acks) emit ack(message);
+  for (const CommandAck& ack : acks) {
+    if (ack.client_id == kClient) emit command(tracker_.answered(ack, monotonic()));
+  }
   if (!acks.empty()) publishState();
 }
 

@@ -3,6 +3,7 @@
 #include <QTimer>
 #include <optional>
 
+#include "common/client/command_tracker.h"
 #include "common/client/hold_stream.h"
 #include "gui/link/link.h"
 #include "tests/support/test_robot.h"
@@ -65,6 +66,7 @@ class DirectLink : public Link {
   bool sensors_;
   std::unique_ptr<SampleWorld> world_;  ///< what its cameras and its LiDAR would see
   HoldStream holds_{25.0, 0.2};
+  CommandTracker tracker_{1.0};
   QTimer timer_;
   SteadyClock wall_;
   Stamp opened_, opened_wall_;  ///< when runByTimer() was called

@@ -31,11 +31,11 @@ TEST_F(StationTest, AHoldBelongsToOnePressAndEndsWhereTheRobotEndedIt) {
   hold.renew();
   ASSERT_EQ(link.presses.size(), 2u);
   EXPECT_EQ(link.presses[0], link.presses[1]) << "renewing is not pressing";
-  CommandAck ack;
-  ack.command = "jog_base";
-  ack.outcome = AckOutcome::Refused;
-  ack.code = "press_over";
-  emit link.ack(ack);
+  CommandUpdate update;
+  update.command = "jog_base";
+  update.state = CommandState::Refused;
+  update.code = "press_over";
+  emit link.command(update);
   EXPECT_FALSE(hold.holding());
   ASSERT_TRUE(hold.hold(HoldKind::Base, JogBase{{0.3, 0, 0}}));
   EXPECT_GT(link.presses.back(), link.presses.front());

@@ -10,6 +10,7 @@
 #include "common/geom/frames.h"
 #include "common/wire/fire/codec/fire_codec.h"
 #include "common/wire/fire/fire_view.h"
+#include "tests/support/kitchen.h"
 
 namespace kiln::gui {
 namespace {
@@ -49,10 +50,11 @@ double hit(const SceneBox& box, const Eigen::Vector3d& from, const Eigen::Vector
 
 SampleWorld::SampleWorld()
     : robot_(load<RobotGeometry>("robot_model/bob.yaml")),
-      arena_(load<ArenaMap>("config/arena_kitchen.yaml")) {
+      arena_(loadKitchen()),
+      site_(loadKitchenSite()) {
   for (const BoxConfig& box : arena_.walls) boxes_.push_back(toSceneBox(box));
   for (const BoxConfig& box : arena_.furniture) boxes_.push_back(toSceneBox(box));
-  for (const BoxConfig& box : arena_.fireFurniture()) boxes_.push_back(toSceneBox(box));
+  for (const BoxConfig& box : site_.fixtures().boxes) boxes_.push_back(toSceneBox(box));
 }
 
 RobotStatus SampleWorld::status(Stamp stamp, double t_s) const {
@@ -60,7 +62,7 @@ RobotStatus SampleWorld::status(Stamp stamp, double t_s) const {
   s.stamp = stamp;
   s.mode = Mode::Supervised;
   s.word = StatusWord::Supervised;
-  const Pose2 work = arena_.fire_places.front().work_pose.pose();
+  const Pose2 work = site_.places.front().work_pose.pose();
   const double ahead = std::max(0.0, 1.0 - 0.2 * t_s);
   s.X_map_base = {work.x_m - 2.0 * ahead, work.y_m - 1.2 * ahead, 0.5 * ahead};
   s.arm.q << M_PI, -1.9 + 0.1 * std::sin(t_s), 1.7, -1.4, 90 * kDeg, M_PI;
@@ -114,15 +116,15 @@ Scene SampleWorld::scene(Stamp stamp, const RobotStatus& status, bool spraying) 
   s.arena = boxes_;
   FireSite site;
   site.stamp = stamp;
-  for (const FirePlaceConfig& place : arena_.fire_places) {
+  for (const FirePlaceConfig& place : site_.places) {
     const auto& p = place.plate_xyz_m;
     site.places.push_back({place.name, {p[0], p[1], p[2]}, place.facing_deg * kDeg, false});
   }
   for (const GroundPoseConfig& pose : arena_.entry_path)
     s.planned.waypoints_map.push_back(pose.pose());
-  for (const GroundPoseConfig& pose : arena_.fire_places[0].via)
+  for (const GroundPoseConfig& pose : site_.places[0].via)
     s.planned.waypoints_map.push_back(pose.pose());
-  s.planned.waypoints_map.push_back(arena_.fire_places[0].work_pose.pose());
+  s.planned.waypoints_map.push_back(site_.places[0].work_pose.pose());
   s.planned.next = 3;
   FireEstimate fire;
   fire.stamp = stamp;

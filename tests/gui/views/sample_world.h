@@ -5,7 +5,7 @@
 #include "common/model/status.h"
 #include "common/robot_model/robot_geometry.h"
 #include "common/wire/fire/fire_model.h"
-#include "robot/scene/arena_map.h"
+#include "robot/scene/fire_site_map.h"
 
 namespace kiln::gui {
 
@@ -32,6 +32,7 @@ class SampleWorld {
  private:
   RobotGeometry robot_;
   ArenaMap arena_;
+  FireSiteMap site_;
   std::vector<SceneBox> boxes_;
 };
 

@@ -10,6 +10,7 @@
 #include "common/config/config_archive.h"
 #include "robot/app/robot_settings.h"
 #include "robot/missions/fire/skills/spray_calibration.h"
+#include "robot/scene/fire_site_map.h"
 #include "robot/sim/world_config.h"
 #include "tests/support/paths.h"
 
@@ -31,6 +32,7 @@ Result<void> readAs(const fs::path& path) {
 const std::map<std::string, std::function<Result<void>(const fs::path&)>>& readers() {
   static const std::map<std::string, std::function<Result<void>(const fs::path&)>> kReaders{
       {"config/arena_", readAs<ArenaMap>},
+      {"config/fire_site_", readAs<FireSiteMap>},
       {"config/robot", readAs<RobotSettings>},
       {"config/spray_calibration", readAs<SprayCalibration>},
       {"robot_model/", readAs<RobotGeometry>},
@@ -81,6 +83,7 @@ TEST(ConfigurationReference, IsWhatTheStructsSay) {
       "the code:\n`KILN_UPDATE_DOCS=1 build/tests/resources_test`.\n" +
       sectionFor<RobotSettings>("Robot", "resources/config/robot.yaml") +
       sectionFor<ArenaMap>("Arena", "resources/config/arena_kitchen.yaml") +
+      sectionFor<FireSiteMap>("Fire places", "resources/config/fire_site_kitchen.yaml") +
       sectionFor<RobotGeometry>("Geometry of the robot", "resources/robot_model/bob.yaml") +
       sectionFor<sim::WorldConfig>("World", "resources/worlds/fire.yaml");
   const fs::path page = kResources / "docs/configuration.md";

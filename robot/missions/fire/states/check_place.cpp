@@ -16,15 +16,14 @@ void CheckPlace::look() {
   ++looks_;
   asked_ = true;
   asked_at_ = now();
-  c.devices.surroundings.beginPlaceCheck(c.place().name, c.placeFront());
+  c.devices.place_look.begin(c.place().name, c.placeFront());
 }
 
 Transition CheckPlace::execute() {
   FireContext& c = context();
   const FireCheckConfig& config = c.config.check;
   if (!asked_ && now() >= next_look_) look();
-  const std::optional<PlaceCheck> seen =
-      asked_ ? c.devices.surroundings.placeCheck() : std::nullopt;
+  const std::optional<PlaceCheck> seen = asked_ ? c.devices.place_look.answer() : std::nullopt;
   const bool late = asked_ && toSeconds(now() - asked_at_) > config.look_timeout_s;
   if (seen) {
     c.place_check = seen;

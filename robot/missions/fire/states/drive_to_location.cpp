@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "robot/missions/common/route.h"
+#include "robot/missions/fire/place_route.h"
 #include "robot/missions/fire/states/arm_blocked.h"
 #include "robot/missions/fire/states/check_place.h"
 #include "robot/missions/fire/states/drive_blocked.h"
@@ -15,7 +15,7 @@ void DriveToLocation::enter() {
   const double radius_m =
       0.5 * std::hypot(robot.length_m, robot.width_m) + c.config.drive.clearance_m;
   const FireBelief& belief = c.belief;
-  c.drive.start(routeToPlace(c.devices.arena, c.devices.pose(), belief.at_place,
+  c.drive.start(routeToPlace(c.devices.arena, c.site, c.devices.pose(), belief.at_place,
                              belief.current_place, radius_m),
                 now());
 }

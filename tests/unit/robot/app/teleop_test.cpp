@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "robot/scene/fire_site_map.h"
 #include "tests/support/fake_devices.h"
 #include "tests/support/paths.h"
 
@@ -125,17 +126,23 @@ TEST_F(TeleopTest, ArmJogStopsBeforeAPlaceWhereItStandsNow) {
   FirePlaceConfig place;
   place.name = "place 1";
   place.plate_xyz_m = {6.0, 0.0, 1.0};
-  arena_.fire_places = {place};
+  FireSiteMap site;
+  site.places = {place};
+  const auto stands = [&](double x_m) {
+    site.movePlace(0, {x_m, 0.0, 1.0}, M_PI);
+    arena_.fixtures[kFireSite] = site.fixtures();
+  };
+  stands(6.0);
   JogArm jog;
   jog.frame = JogFrame::Base;
   jog.velocity[0] = 0.1;  // forward, out of its drive pose
   teleop_.jogArm(jog, arm_device_.state()->q, Pose2{}, clock_.now(), 1.0);
   EXPECT_EQ(teleop_.blocked(), "") << "far away";
   const double reach_m = robot_.X_base_flange(arm_device_.state()->q).translation().x();
-  arena_.movePlace(0, {reach_m + 0.25, 0.0, 1.0}, M_PI);
+  stands(reach_m + 0.25);
   teleop_.jogArm(jog, arm_device_.state()->q, Pose2{}, clock_.now(), 1.0);
   EXPECT_NE(teleop_.blocked().find("place 1"), std::string::npos) << teleop_.blocked();
-  arena_.movePlace(0, {6.0, 0.0, 1.0}, M_PI);
+  stands(6.0);
   teleop_.jogArm(jog, arm_device_.state()->q, Pose2{}, clock_.now(), 1.0);
   EXPECT_EQ(teleop_.blocked(), "") << "moved away again";
 }

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "common/core/units.h"
+#include "robot/scene/fire_site_map.h"
 #include "tests/unit/robot/localization/synthetic_scan.h"
 
 namespace kiln {
@@ -29,7 +30,7 @@ class BoxMapAlignerTest : public ::testing::Test {
     settings.boxes = arena_.walls;
     for (const auto& box : testing::moved(arena_.furniture, 0.15, seed))
       settings.boxes.push_back(box);
-    for (const auto& box : testing::moved(arena_.fireFurniture(), 0.10, seed + 100))
+    for (const auto& box : testing::moved(arena_.fixtures.at(kFireSite).boxes, 0.10, seed + 100))
       settings.boxes.push_back(box);
     settings.random_return_fraction = 0.05;
     settings.seed = seed;

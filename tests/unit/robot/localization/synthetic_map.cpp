@@ -4,6 +4,7 @@
 #include <random>
 
 #include "common/core/units.h"
+#include "robot/scene/fire_site_map.h"
 
 namespace kiln::testing {
 namespace {
@@ -26,7 +27,8 @@ std::vector<BoxConfig> kitchenBoxes(double furniture_m, double boxes_m, std::uin
   const ArenaMap arena = kitchen();
   std::vector<BoxConfig> boxes = arena.walls;
   for (const auto& box : moved(arena.furniture, furniture_m, seed)) boxes.push_back(box);
-  for (const auto& box : moved(arena.fireFurniture(), boxes_m, seed + 100)) boxes.push_back(box);
+  for (const auto& box : moved(arena.fixtures.at(kFireSite).boxes, boxes_m, seed + 100))
+    boxes.push_back(box);
   return boxes;
 }
 

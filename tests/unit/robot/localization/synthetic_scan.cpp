@@ -4,9 +4,8 @@
 #include <cmath>
 #include <random>
 
-#include "common/config/resources.h"
-#include "common/core/check.h"
 #include "common/core/units.h"
+#include "tests/support/kitchen.h"
 
 namespace kiln::testing {
 namespace {
@@ -30,14 +29,7 @@ double slab(const Eigen::Vector3d& origin, const Eigen::Vector3d& ray,
 
 }  // namespace
 
-ArenaMap kitchen() {
-  ArenaMap arena;
-  const auto path = resourcePath("config/arena_kitchen.yaml");
-  KILN_CHECK(path.has_value(), "the arena is part of the tree");
-  const auto loaded = loadConfig(*path, arena);
-  KILN_CHECK(loaded.has_value(), loaded ? "" : loaded.error().message);
-  return arena;
-}
+ArenaMap kitchen() { return loadKitchen(); }
 
 BoxConfig makeBox(double x, double y, double z, double sx, double sy, double sz) {
   return {"box", {{x, y, z}, {0, 0, 0}}, {sx, sy, sz}};

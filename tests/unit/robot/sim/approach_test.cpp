@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "robot/sim/ray_scene.h"
+#include "tests/support/kitchen.h"
 #include "tests/unit/robot/sim/driven_world.h"
 
 namespace kiln::sim {
@@ -37,14 +38,13 @@ TEST(Approach, RobotStandsLevelInTheLowerStartAreaInEverySeed) {
 TEST(Approach, SlopeAndEdgeDifferBySeedWithinTheScenarioAndOnlyInTheFullWorld) {
   double least = 90, most = 0;
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
-    ArenaMap map;
-    ASSERT_TRUE(loadConfig(*resourcePath("config/arena_kitchen.yaml"), map).has_value());
-    const TrueArena full = TrueArena::draw(DrivenWorld::fullWorld(), map, {}, seed);
+    const auto [map, site] = loadWholeKitchen();
+    const TrueArena full = TrueArena::draw(DrivenWorld::fullWorld(), map, site, {}, seed);
     const ApproachConfig& a = full.ground.approach();
     least = std::min(least, a.slope_deg);
     most = std::max(most, a.slope_deg);
     EXPECT_NEAR(a.edge_m, 0.02, 0.005);
-    EXPECT_TRUE(TrueArena::draw({}, map, {}, seed).ground.flat());
+    EXPECT_TRUE(TrueArena::draw({}, map, site, {}, seed).ground.flat());
   }
   EXPECT_GE(least, 3.5);
   EXPECT_LE(most, 4.5);

@@ -187,11 +187,11 @@ TEST(FireBoxMisplaced, StandsThatFarOffInEverySeedAndTheOtherOneWithinItsToleran
   const WorldConfig config = withFault({}, "fire_box_misplaced=0.25@0");
   double sum_x = 0.0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    const TrueArena arena = TrueArena::draw(config, scene.map, scene.robot, seed);
+    const TrueArena arena = TrueArena::draw(config, scene.map, scene.site, scene.robot, seed);
     for (std::size_t i = 0; i < arena.fire_places.size(); ++i) {
-      const auto& spot = scene.map.fire_places[i].plate_xyz_m;
+      const auto& spot = scene.site.places[i].plate_xyz_m;
       const Eigen::Vector2d off =
-          (arena.fire_places[i].X_map_front * Eigen::Vector3d(-scene.map.recess_m, 0, 0))
+          (arena.fire_places[i].X_map_front * Eigen::Vector3d(-scene.site.recess_m, 0, 0))
               .head<2>() -
           Eigen::Vector2d(spot[0], spot[1]);
       if (i == arena.burning) {

@@ -4,6 +4,7 @@
 
 #include "common/config/resources.h"
 #include "robot/sim/ray_scene.h"
+#include "tests/support/kitchen.h"
 
 namespace kiln::sim {
 
@@ -11,9 +12,8 @@ namespace kiln::sim {
 struct TestScene {
   explicit TestScene(std::uint64_t seed = 1) {
     config.perturbation = {0, 0, 0, 0, 0, 0, 0, 0, 0};
-    EXPECT_TRUE(loadConfig(*resourcePath("config/arena_kitchen.yaml"), map).has_value());
     EXPECT_TRUE(loadConfig(*resourcePath("robot_model/bob.yaml"), robot).has_value());
-    arena = TrueArena::draw(config, map, robot, seed);
+    arena = TrueArena::draw(config, map, site, robot, seed);
     state.q = RobotGeometry::radians(robot.q_drive_deg);
     scene = std::make_unique<RayScene>(config, arena, robot, false);
   }
@@ -39,7 +39,8 @@ struct TestScene {
   }
 
   WorldConfig config;
-  ArenaMap map;
+  ArenaMap map = loadKitchen();
+  FireSiteMap site = loadKitchenSite();
   RobotGeometry robot;
   TrueArena arena;
   SceneState state;

@@ -92,7 +92,7 @@ TEST_F(WorldServerTest, TellsWhatTheRobotLacksAndKeepsIt) {
   EXPECT_EQ(images, 0);
   EXPECT_FALSE((*link)->pumps().state().has_value());
   EXPECT_TRUE((*link)->arm().state().has_value());
-  EXPECT_EQ(world->truth().pump_on_s, 0.0);
+  EXPECT_EQ(world->truth().fire.pump_on_s, 0.0);
 }
 
 TEST_F(WorldServerTest, SecondRobotIsRefusedInWords) {

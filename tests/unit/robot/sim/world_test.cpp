@@ -106,7 +106,7 @@ TEST_F(WorldTest, ThePlateIsLitByTheMissionsClockOnceAndForAll) {
   const auto plateAfter = [&](double seconds, const WorldCommands& commands) {
     world->command(commands);
     (void)world->advance(world->now() + fromSeconds(seconds));
-    return world->truth().plate_c;
+    return world->truth().fire.plate_c;
   };
   WorldCommands start, reset;
   start.start_clock = true;

@@ -53,6 +53,7 @@ class DriveToTest : public ::testing::Test {
   ManualClock clock{Stamp{std::chrono::seconds(10)}};
   RobotGeometry robot = loadBob();
   ArenaMap arena = loadKitchen();
+  FireSiteMap site = loadKitchenSite();
   FakeBase base{clock, robot};
   StopLatch stop;
   BaseController controller{{}, robot, base, stop};
@@ -71,8 +72,8 @@ class DriveToTest : public ::testing::Test {
 TEST_F(DriveToTest, DrivesThroughTheDoorToTheFirstFirePlace) {
   std::vector<Pose2> way;
   for (const auto& waypoint : arena.entry_path) way.push_back(waypoint.pose());
-  for (const auto& waypoint : arena.fire_places[0].via) way.push_back(waypoint.pose());
-  const Pose2 goal = arena.fire_places[0].work_pose.pose();
+  for (const auto& waypoint : site.places[0].via) way.push_back(waypoint.pose());
+  const Pose2 goal = site.places[0].work_pose.pose();
   way.push_back(goal);
   const Stamp begin = clock.now();
   run(way);

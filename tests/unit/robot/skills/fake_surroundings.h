@@ -24,8 +24,6 @@ class TestSurroundings final : public Surroundings {
     return cloud;
   }
   [[nodiscard]] Pose2 X_odom_base() const override { return odometry_(); }
-  void beginPlaceCheck(const std::string&, const Eigen::Isometry3d&) override {}
-  [[nodiscard]] std::optional<PlaceCheck> placeCheck() const override { return std::nullopt; }
 
   /// A post of 16 points around (x, y, z) in odom.
   void stand(double x, double y, double z) {

@@ -55,7 +55,7 @@ class MoveArmTest : public ::testing::Test {
   ManualClock clock{Stamp{std::chrono::seconds(10)}};
   RobotGeometry robot = loadBob();
   ArenaMap arena = loadKitchen();
-  Pose2 X_map_base = arena.fire_places[0].work_pose.pose();
+  Pose2 X_map_base = loadKitchenSite().places[0].work_pose.pose();
   FakeArm arm{clock, robot, RobotGeometry::radians(robot.q_drive_deg)};
   StopLatch stop;
   ArmController controller{{}, robot, arm, stop};

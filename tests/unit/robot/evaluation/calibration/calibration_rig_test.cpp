@@ -22,7 +22,7 @@ struct Silent final : Device {
 struct CalibrationRigTest : ::testing::Test {
   CalibrationRigTest() {
     rig = std::make_unique<CalibrationRig>(
-        CalibrationRig::Config{}, robot, ArenaMap{},
+        CalibrationRig::Config{}, robot, CalibrationYard{},
         CalibrationDevices{arm, pumps, lidar, thermal, camera, clock, [this] { return step(); }});
   }
   Result<void> step() {

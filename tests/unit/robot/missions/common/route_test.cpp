@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/paths.h"
+#include "tests/support/kitchen.h"
 
 namespace kiln {
 namespace {
@@ -14,12 +14,7 @@ constexpr double kRadius_m =
 
 class RouteTest : public testing::Test {
  protected:
-  void SetUp() override {
-    const auto loaded =
-        loadConfig(kiln::sourceDir() + "/resources/config/arena_kitchen.yaml", arena);
-    ASSERT_TRUE(loaded.has_value()) << loaded.error();
-  }
-  ArenaMap arena;
+  const ArenaMap arena = loadKitchen();
 };
 
 TEST_F(RouteTest, WallsFurnitureAndTablesBlockALine) {
@@ -29,33 +24,6 @@ TEST_F(RouteTest, WallsFurnitureAndTablesBlockALine) {
       << "onto the table of place 1";
   EXPECT_TRUE(straightIsClear(arena, {4.9, 0, 0}, {5.1, 0, 0}, 1.2))
       << "the lintel is driven under";
-}
-
-TEST_F(RouteTest, RoutesBetweenPlacesAreClearAndEndAtTheWorkPose) {
-  const Pose2 hub = arena.entry_path.back().pose();
-  const Pose2 work[] = {arena.fire_places[0].work_pose.pose(),
-                        arena.fire_places[1].work_pose.pose()};
-  const struct {
-    Pose2 here;
-    int from;
-    int to;
-  } cases[] = {{hub, -1, 0}, {hub, -1, 1}, {work[0], 0, 1}, {work[1], 1, 0}};
-  for (const auto& c : cases) {
-    const auto route = routeToPlace(arena, c.here, c.from, c.to, kRadius_m);
-    ASSERT_FALSE(route.empty());
-    EXPECT_EQ(route.back().x_m, work[c.to].x_m);
-    EXPECT_EQ(route.back().yaw_rad, work[c.to].yaw_rad);
-    Pose2 at = c.here;
-    for (const Pose2& next : route) {
-      EXPECT_TRUE(straightIsClear(arena, at, next, 1.18)) << c.from << " -> " << c.to;
-      at = next;
-    }
-  }
-}
-
-TEST_F(RouteTest, AtTheSamePlaceOnlyTheWorkPoseIsLeft) {
-  const Pose2 work = arena.fire_places[1].work_pose.pose();
-  EXPECT_EQ(routeToPlace(arena, work, 1, 1, kRadius_m).size(), 1u);
 }
 
 TEST_F(RouteTest, AWayPointIsKeptWhereTheStraightLineIsBlocked) {

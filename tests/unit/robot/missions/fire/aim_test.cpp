@@ -17,7 +17,7 @@ TEST(AimHose, EndsWhereTheJetPassesThroughTheOpening) {
   FireRig rig;
   ASSERT_TRUE(rig.runToState("StartPump"));
   const Eigen::Vector3d normal(-1, 0, 0);  // place 1 faces 180 deg
-  const Eigen::Vector3d p_opening = rig.sweep.p_plate_map + rig.arena.recess_m * normal;
+  const Eigen::Vector3d p_opening = rig.sweep.p_plate_map + rig.site().recess_m * normal;
   // Flow scale in the middle of the water to come: each tank at 4 of 5 l -> 1 - 0.2 * 0.2.
   const JetMiss miss = jetMiss(SprayCalibration{}, nozzle(rig), p_opening, normal, 0.96);
   ASSERT_TRUE(miss.reaches);
@@ -52,7 +52,7 @@ TEST(AimHose, FollowsTheEstimateWhileItImproves) {
   rig.sweep.p_plate_map += Eigen::Vector3d(0.02, 0.05, 0.03);
   ASSERT_TRUE(rig.runToState("StartPump"));
   const Eigen::Vector3d normal(-1, 0, 0);
-  const Eigen::Vector3d p_opening = rig.sweep.p_plate_map + rig.arena.recess_m * normal;
+  const Eigen::Vector3d p_opening = rig.sweep.p_plate_map + rig.site().recess_m * normal;
   EXPECT_LT(jetMiss(SprayCalibration{}, nozzle(rig), p_opening, normal, 0.96).distance_m, 0.015);
 }
 

@@ -45,8 +45,7 @@ std::optional<FireEstimate> FakeHeatSweep::estimate() const {
   return out;
 }
 
-void FakeSurroundings::beginPlaceCheck(const std::string& place,
-                                       const Eigen::Isometry3d& X_map_front) {
+void FakePlaceLook::begin(const std::string& place, const Eigen::Isometry3d& X_map_front) {
   ++asked;
   answer_.reset();
   if (silent) return;
@@ -67,8 +66,7 @@ void FakeSurroundings::beginPlaceCheck(const std::string& place,
 FireRig::FireRig() : FireRig(Options{}) {}
 
 FireRig::FireRig(const Options& options)
-    : arena(loaded<ArenaMap>("config/arena_kitchen.yaml")),
-      robot(loaded<RobotGeometry>("robot_model/bob.yaml")),
+    : robot(loaded<RobotGeometry>("robot_model/bob.yaml")),
       arm_device(clock, robot, RobotGeometry::radians(robot.q_park_deg)),
       pumps_device(clock),
       arm(robot, arm_device),
@@ -78,7 +76,7 @@ FireRig::FireRig(const Options& options)
       plate_lit_(clock.now()),
       next_image_(clock.now()) {
   const int burning = std::max(0, burning_place);
-  const auto& plate = arena.fire_places[static_cast<std::size_t>(burning)].plate_xyz_m;
+  const auto plate = loadKitchenSite().places[static_cast<std::size_t>(burning)].plate_xyz_m;
   sweep.p_plate_map =
       Eigen::Vector3d(plate[0], plate[1], plate[2]) + Eigen::Vector3d(0.04, -0.06, 0.0);
   build();
@@ -90,12 +88,24 @@ void FireRig::build() {
   mission.reset();
   pumps = std::make_unique<PumpController>(PumpController::Config{}, pumps_device, stop);
   belief = {};
-  const FireDevices devices{
-      {clock, executor_, arena, robot, belief, base, arm, arm_device, *pumps,
-       [this] { return base.pose(); }, surroundings, [](Stamp) { return std::nullopt; },
-       [](const ThermalImagePtr&) {}, [](const MissionDetail&) {}},
-      sweep,
-      spray_calibration_};
+  const FireDevices devices{{clock,
+                             executor_,
+                             arena,
+                             robot,
+                             belief,
+                             base,
+                             arm,
+                             arm_device,
+                             *pumps,
+                             [this] { return base.pose(); },
+                             {},
+                             [](Stamp) { return std::nullopt; },
+                             [](const ThermalImagePtr&) {},
+                             [](const MissionDetail&) {}},
+                            sweep,
+                            place_look,
+                            loadKitchenSite(),
+                            spray_calibration_};
   mission = std::make_unique<FireMission>(devices, config, "test-uuid");
   host = std::make_unique<MissionHost>(*mission, belief, stop, clock,
                                        CheckpointKeeper::Config{options_.checkpoint_path});

@@ -9,6 +9,7 @@
 #include "common/core/manual_executor.h"
 #include "robot/missions/common/mission_host.h"
 #include "robot/missions/fire/fire_mission.h"
+#include "tests/support/kitchen.h"
 #include "tests/unit/robot/missions/fire/fake_motion.h"
 
 namespace kiln {
@@ -28,14 +29,12 @@ class FakeHeatSweep final : public HeatSweep {
   Stamp stamp_;
 };
 
-/// A live cloud that says of every place what the test wants; nothing else stands around.
-class FakeSurroundings final : public Surroundings {
+/// Says of every place what the test wants.
+class FakePlaceLook final : public PlaceLook {
  public:
-  explicit FakeSurroundings(const Clock& clock) : clock_(clock) {}
-  [[nodiscard]] ObstacleCloudPtr obstacles() const override { return nullptr; }
-  [[nodiscard]] Pose2 X_odom_base() const override { return {}; }
-  void beginPlaceCheck(const std::string& place, const Eigen::Isometry3d& X_map_front) override;
-  [[nodiscard]] std::optional<PlaceCheck> placeCheck() const override { return answer_; }
+  explicit FakePlaceLook(const Clock& clock) : clock_(clock) {}
+  void begin(const std::string& place, const Eigen::Isometry3d& X_map_front) override;
+  [[nodiscard]] std::optional<PlaceCheck> answer() const override { return answer_; }
 
   Pose2 misplaced;      ///< of every place, from its configured pose
   bool silent = false;  ///< never answers
@@ -75,13 +74,15 @@ class FireRig {
   [[nodiscard]] int countVisits(const std::string& state) const;
   /// Note that the history keeps of the newest entry into a state.
   [[nodiscard]] std::string noteOf(const std::string& state) const;
+  /// Where the places stand as the mission believes.
+  [[nodiscard]] const FireSiteMap& site() const { return mission->siteMap(); }
   [[nodiscard]] const FirePlace& place(std::size_t i) const { return mission->belief().places[i]; }
   [[nodiscard]] bool armAt(const std::vector<double>& q_deg) const;
   [[nodiscard]] bool pumpsRun() const;
   [[nodiscard]] double missionTime() const { return belief.elapsedS(clock.now()); }
 
   ManualClock clock{Stamp{std::chrono::seconds(1000)}};
-  ArenaMap arena;
+  ArenaMap arena = loadKitchen();
   RobotGeometry robot;
   FireConfig config;
   FakeArm arm_device;
@@ -90,7 +91,7 @@ class FireRig {
   FakeBaseMotion base;
   StopLatch stop;
   FakeHeatSweep sweep;
-  FakeSurroundings surroundings{clock};
+  FakePlaceLook place_look{clock};
   std::unique_ptr<PumpController> pumps;
   RobotBelief belief;
   std::unique_ptr<FireMission> mission;

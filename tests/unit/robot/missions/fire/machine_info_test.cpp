@@ -75,7 +75,7 @@ TEST(FireMission, ScoresTheFirstLitreOnAPlace) {
 
 TEST(FireMission, RaisesAPlaceThatIsRefused) {
   FireRig rig;
-  rig.surroundings.misplaced = {0.2, 0.1, 0.0};
+  rig.place_look.misplaced = {0.2, 0.1, 0.0};
   EXPECT_TRUE(rig.mission->alarms(rig.clock.now()).empty());
   ASSERT_TRUE(rig.runToState("PlaceRefused")) << rig.state();
   ASSERT_EQ(rig.mission->alarms(rig.clock.now()).size(), 1u);

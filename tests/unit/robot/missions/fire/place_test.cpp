@@ -7,10 +7,10 @@ namespace {
 
 TEST(CheckPlace, TheArmUnfoldsOnlyBeforeAPlaceThatStandsWhereItShould) {
   FireRig rig;
-  rig.surroundings.misplaced = {0.2, 0.1, 0.0};
+  rig.place_look.misplaced = {0.2, 0.1, 0.0};
   ASSERT_TRUE(rig.runToState("PlaceRefused")) << rig.state();
   EXPECT_EQ(rig.countVisits("ArmSearch"), 0);
-  EXPECT_EQ(rig.surroundings.asked, rig.config.check.max_looks) << "looks again before it refuses";
+  EXPECT_EQ(rig.place_look.asked, rig.config.check.max_looks) << "looks again before it refuses";
   ASSERT_EQ(rig.mission->placeChecks().size(), 1u);
   EXPECT_EQ(rig.mission->placeChecks()[0].verdict, PlaceVerdict::Misplaced);
   rig.run(5.0);
@@ -21,15 +21,15 @@ TEST(CheckPlace, TheArmUnfoldsOnlyBeforeAPlaceThatStandsWhereItShould) {
 
 TEST(CheckPlace, ANudgeIsCheckedAndTheMissionGoesOnWithThePlaceWhereItIs) {
   FireRig rig;
-  rig.surroundings.misplaced = {0.2, 0.1, 0.05};
+  rig.place_look.misplaced = {0.2, 0.1, 0.05};
   const Eigen::Isometry3d before =
-      rig.arena.front(rig.place(0).p_plate_map, rig.place(0).facing_rad);
-  const Pose2 work_before = rig.arena.fire_places[0].work_pose.pose();
+      rig.site().front(rig.place(0).p_plate_map, rig.place(0).facing_rad);
+  const Pose2 work_before = rig.site().places[0].work_pose.pose();
   ASSERT_TRUE(rig.runToState("PlaceRefused")) << rig.state();
   const Pose2 correction = rig.mission->placeChecks()[0].correction();
   ASSERT_TRUE(rig.mission->nudgePlace("place 1", correction).has_value());
   const Eigen::Isometry3d after =
-      rig.arena.front(rig.place(0).p_plate_map, rig.place(0).facing_rad);
+      rig.site().front(rig.place(0).p_plate_map, rig.place(0).facing_rad);
   EXPECT_NEAR((after.translation() - before.translation() - Eigen::Vector3d(0.2, 0.1, 0)).norm(),
               0.0, 1e-9);
   EXPECT_NEAR(wrapAngle(projectToGround(after).yaw_rad - projectToGround(before).yaw_rad), 0.05,
@@ -38,8 +38,7 @@ TEST(CheckPlace, ANudgeIsCheckedAndTheMissionGoesOnWithThePlaceWhereItIs) {
   EXPECT_NEAR(rig.mission->site(rig.clock.now()).places[0].nudge.yaw_rad, 0.05, 1e-12);
   // The robot works from the same pose relative to the place, and plans with the moved box.
   const Pose2 seen_before = inverse(projectToGround(before)) * work_before;
-  const Pose2 seen_after =
-      inverse(projectToGround(after)) * rig.arena.fire_places[0].work_pose.pose();
+  const Pose2 seen_after = inverse(projectToGround(after)) * rig.site().places[0].work_pose.pose();
   EXPECT_NEAR(std::hypot(seen_before.x_m - seen_after.x_m, seen_before.y_m - seen_after.y_m), 0.0,
               1e-9);
   rig.sweep.p_plate_map = rig.place(0).p_plate_map;
@@ -49,9 +48,9 @@ TEST(CheckPlace, ANudgeIsCheckedAndTheMissionGoesOnWithThePlaceWhereItIs) {
 
 TEST(CheckPlace, WithoutTheOperatorThePlaceIsLeftOutInTheEnd) {
   FireRig rig({.burning_place = 1});
-  rig.surroundings.silent = true;
+  rig.place_look.silent = true;
   ASSERT_TRUE(rig.runToState("PlaceRefused")) << rig.state();
-  rig.surroundings.silent = false;
+  rig.place_look.silent = false;
   ASSERT_TRUE(rig.runToEnd());
   EXPECT_EQ(rig.state(), "Finished");
   EXPECT_EQ(rig.place(0).outcome, "not where it was configured");
@@ -60,7 +59,7 @@ TEST(CheckPlace, WithoutTheOperatorThePlaceIsLeftOutInTheEnd) {
 
 TEST(CheckPlace, TheOperatorMayGoOnInSpiteOfIt) {
   FireRig rig;
-  rig.surroundings.misplaced = {0.2, 0.0, 0.0};
+  rig.place_look.misplaced = {0.2, 0.0, 0.0};
   ASSERT_TRUE(rig.runToState("PlaceRefused")) << rig.state();
   EXPECT_EQ(rig.mission->continueDespite("place 2", "Ada", rig.clock.now()).error().code,
             ErrorCode::Refused);

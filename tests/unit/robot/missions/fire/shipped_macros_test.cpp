@@ -54,9 +54,8 @@ class ShippedMacros : public ::testing::Test {
     return running ? "still running" : runner->status().last_result;
   }
   [[nodiscard]] std::optional<Pose2> workPose(const std::string& name) const {
-    for (const FirePlaceConfig& known : arena.fire_places)
-      if (known.name == name) return known.work_pose.pose();
-    return std::nullopt;
+    const FirePlaceConfig* known = site.place(name);
+    return known ? std::optional(known->work_pose.pose()) : std::nullopt;
   }
   /// Where the jet crosses the opening of the place in front.
   void watchJet() {
@@ -67,14 +66,15 @@ class ShippedMacros : public ::testing::Test {
     const Eigen::Vector3d plate(place->plate_xyz_m[0], place->plate_xyz_m[1],
                                 place->plate_xyz_m[2]);
     const JetMiss miss =
-        jetMiss(calibration, X_map_nozzle, plate + arena.recess_m * normal, normal, 1.0);
+        jetMiss(calibration, X_map_nozzle, plate + site.recess_m * normal, normal, 1.0);
     worst_miss_m = std::max(worst_miss_m, miss.reaches ? miss.distance_m : 1.0);
   }
 
   ManualClock clock{Stamp{std::chrono::seconds(10)}};
   RobotGeometry robot = loadBob();
   ArenaMap arena = loadKitchen();
-  const FirePlaceConfig* place = &arena.fire_places[0];
+  FireSiteMap site = loadKitchenSite();
+  const FirePlaceConfig* place = &site.places[0];
   Pose2 base = place->work_pose.pose();
   SprayCalibration calibration;
   FakeArm arm{clock, robot, RobotGeometry::radians(robot.q_drive_deg)};
@@ -85,13 +85,26 @@ class ShippedMacros : public ::testing::Test {
   MoveArm skill{{}, robot, arena, controller, arm, [this] { return base; }};
   FakeBaseMotion drive{base};
   FakeHeatSweep sweep;
-  FakeSurroundings surroundings{clock};
+  FakePlaceLook place_look{clock};
   RobotBelief belief;
   ManualExecutor executor{clock};
-  FireContext context{{{clock, executor, arena, robot, belief, drive, skill, arm, pumps,
-                        [this] { return base; }, surroundings, [](Stamp) { return std::nullopt; },
-                        [](const ThermalImagePtr&) {}, [](const MissionDetail&) {}},
+  FireContext context{{{clock,
+                        executor,
+                        arena,
+                        robot,
+                        belief,
+                        drive,
+                        skill,
+                        arm,
+                        pumps,
+                        [this] { return base; },
+                        {},
+                        [](Stamp) { return std::nullopt; },
+                        [](const ThermalImagePtr&) {},
+                        [](const MissionDetail&) {}},
                        sweep,
+                       place_look,
+                       site,
                        calibration},
                       {}};
   std::optional<MacroRunner> runner;
@@ -109,7 +122,7 @@ TEST_F(ShippedMacros, SprayFire1HitsTheOpeningAllTheTime) {
 }
 
 TEST_F(ShippedMacros, SprayFire2HitsTheOpeningAllTheTime) {
-  place = &arena.fire_places[1];
+  place = &site.places[1];
   base = place->work_pose.pose();
   EXPECT_EQ(run("spray fire 2", 120.0), "done");
   EXPECT_LT(worst_miss_m, 0.075 + 0.02);

@@ -11,16 +11,14 @@
 namespace kiln {
 namespace {
 
-Eigen::Isometry3d configuredFront(const ArenaMap& map, std::size_t place) {
-  const FirePlaceConfig& c = map.fire_places[place];
-  return makePose({c.plate_xyz_m[0], c.plate_xyz_m[1], c.plate_xyz_m[2]},
-                  {0, 0, c.facing_deg * kDeg}) *
-         Eigen::Translation3d(map.recess_m, 0, 0);
+Eigen::Isometry3d configuredFront(const FireSiteMap& site, std::size_t place) {
+  const FirePlaceConfig& c = site.places[place];
+  return site.front({c.plate_xyz_m[0], c.plate_xyz_m[1], c.plate_xyz_m[2]}, c.facing_deg * kDeg);
 }
 
 /// Drives up to a place as the mission does, localised to about a centimetre.
 std::deque<ScanWindow::Entry> approach(ScanRig& rig, std::size_t place, std::uint64_t seed) {
-  const FirePlaceConfig& c = rig.map.fire_places[place];
+  const FirePlaceConfig& c = rig.site.places[place];
   const Pose2 from = c.via.back().pose(), to = c.work_pose.pose();
   const double way = std::hypot(to.x_m - from.x_m, to.y_m - from.y_m), speed = 0.8;
   const Vector6d q = RobotGeometry::radians(rig.robot.q_drive_deg);
@@ -68,7 +66,7 @@ TEST(BoxLocator, RefusesWhatIsMisplacedAndAcceptsTheNormalScatter) {
     const std::size_t place = seed % 2;
     const auto scans = approach(rig, place, seed);
     const Eigen::Isometry3d truth = rig.arena.fire_places[place].X_map_front;
-    const PlaceCheck normal = locator.check("place", configuredFront(rig.map, place), scans);
+    const PlaceCheck normal = locator.check("place", configuredFront(rig.site, place), scans);
     ++asked;
     accepted += normal.verdict == PlaceVerdict::Fits ? 1 : 0;
     const double d = 0.15 + 0.25 * unit(random), bearing = 2.0 * M_PI * unit(random),

@@ -11,9 +11,8 @@ constexpr double kChunk = 0.02, kSample = 0.008;  // s
 
 ScanRig::ScanRig(std::uint64_t seed, bool perturbed) {
   if (!perturbed) config.perturbation = {0, 0, 0, 0, 0, 0, 0, 0, 0};
-  EXPECT_TRUE(loadConfig(*resourcePath("config/arena_kitchen.yaml"), map).has_value());
   EXPECT_TRUE(loadConfig(*resourcePath("robot_model/bob.yaml"), robot).has_value());
-  arena = sim::TrueArena::draw(config, map, robot, seed);
+  arena = sim::TrueArena::draw(config, map, site, robot, seed);
   scene = std::make_unique<sim::RayScene>(config, arena, robot, false);
   lidar = std::make_unique<sim::LidarSensor>(config.lidar, robot, arena.robot, seed);
 }

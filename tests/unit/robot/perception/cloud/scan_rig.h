@@ -8,6 +8,7 @@
 #include "robot/perception/cloud/self_filter.h"
 #include "robot/perception/cloud/undistort.h"
 #include "robot/sim/lidar_sensor.h"
+#include "tests/support/kitchen.h"
 
 namespace kiln {
 
@@ -34,7 +35,8 @@ class ScanRig {
                                    const std::function<Motion(double)>& motion) const;
 
   sim::WorldConfig config;
-  ArenaMap map;
+  ArenaMap map = loadKitchen();
+  FireSiteMap site = loadKitchenSite();
   RobotGeometry robot;
   sim::TrueArena arena;
   std::unique_ptr<sim::RayScene> scene;

@@ -4,22 +4,17 @@
 
 #include "common/config/config_archive.h"
 #include "robot/scene/obstacles.h"
+#include "tests/support/kitchen.h"
 #include "tests/support/paths.h"
 
 namespace kiln {
 
-/// The robot and the kitchen as the shipped files describe them.
+/// The robot as the shipped file describes it.
 inline RobotGeometry loadBob() {
   RobotGeometry robot;
   const auto loaded = loadConfig(kiln::sourceDir() + "/resources/robot_model/bob.yaml", robot);
   EXPECT_TRUE(loaded.has_value()) << loaded.error();
   return robot;
-}
-inline ArenaMap loadKitchen() {
-  ArenaMap arena;
-  const auto loaded = loadConfig(kiln::sourceDir() + "/resources/config/arena_kitchen.yaml", arena);
-  EXPECT_TRUE(loaded.has_value()) << loaded.error();
-  return arena;
 }
 inline std::vector<BoxConfig> kitchenBoxes(const ArenaMap& arena) { return obstacles(arena); }
 /// Flange pose in base at which the thermal camera stands at p and looks along base X, upright.

@@ -30,13 +30,14 @@ class CartesianPathTest : public ::testing::Test {
 
   RobotGeometry robot = loadBob();
   ArenaMap arena = loadKitchen();
+  FireSiteMap site = loadKitchenSite();
   ArmCollision collision{robot};
 };
 
 /// The search of the fire mission: thermal camera 0.9 m in front of the plate, over +-0.35 m and
 /// 0.9 to 1.3 m.
 TEST_F(CartesianPathTest, TheWholeSearchRectangleIsOneSmoothLineAtEachFirePlace) {
-  for (const FirePlaceConfig& place : arena.fire_places) {
+  for (const FirePlaceConfig& place : site.places) {
     collision.setScene(kitchenBoxes(arena), place.work_pose.pose());
     std::vector<Eigen::Isometry3d> raster;
     double side = -1.0;

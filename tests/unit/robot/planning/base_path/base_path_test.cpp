@@ -67,7 +67,7 @@ TEST(BasePath, TheKitchensWaypointsAreFreeForTheFootprint) {
   const auto boxes = kitchenBoxes(arena);
   std::vector<Pose2> tour = posesOf(arena.entry_path);
   const Pose2 hub = tour.back();
-  for (const FirePlaceConfig& place : arena.fire_places) {
+  for (const FirePlaceConfig& place : loadKitchenSite().places) {
     for (const Pose2& via : posesOf(place.via)) tour.push_back(via);
     tour.push_back(place.work_pose.pose());
     tour.push_back(hub);
