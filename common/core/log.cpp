@@ -95,7 +95,7 @@ std::shared_ptr<CleaningSink> sharedSink() {
 /// Ours and not spdlog's registry: control loops log, and its mutex does not lend its priority.
 struct Loggers {
   Mutex mutex;
-  std::map<std::string, std::shared_ptr<spdlog::logger>> by_name;
+  std::map<std::string, Logger> by_name;  ///< their addresses stay
   spdlog::level::level_enum level = spdlog::level::info;
 };
 Loggers& loggers() {
@@ -107,15 +107,20 @@ Loggers& loggers() {
 
 bool flushLog(Duration limit) { return errorOutput().flush(limit); }
 
-std::shared_ptr<spdlog::logger> logger(const std::string& name) {
+void Logger::write(LogLevel level, fmt::string_view format, fmt::format_args args) const {
+  const auto severity = static_cast<spdlog::level::level_enum>(level);
+  if (out_->should_log(severity))
+    out_->log(severity, spdlog::string_view_t(fmt::vformat(format, args)));
+}
+
+const Logger* logger(const std::string& name) {
   Loggers& all = loggers();
   const std::lock_guard lock(all.mutex);
-  auto& found = all.by_name[name];
-  if (!found) {
-    found = std::make_shared<spdlog::logger>(name, sharedSink());
-    found->set_level(all.level);
-  }
-  return found;
+  const auto found = all.by_name.find(name);
+  if (found != all.by_name.end()) return &found->second;
+  auto made = std::make_shared<spdlog::logger>(name, sharedSink());
+  made->set_level(all.level);
+  return &all.by_name.emplace(name, Logger(std::move(made))).first->second;
 }
 
 LogSinkHandle addLogSink(std::function<void(const LogRecord&)> sink) {
@@ -128,7 +133,7 @@ void setLogLevel(int level) {
   Loggers& all = loggers();
   const std::lock_guard lock(all.mutex);
   all.level = static_cast<spdlog::level::level_enum>(level);
-  for (auto& [name, logger] : all.by_name) logger->set_level(all.level);
+  for (auto& [name, logger] : all.by_name) logger.out_->set_level(all.level);
 }
 
 }  // namespace kiln

@@ -20,20 +20,20 @@ class LogThrottle {
 
   template <class... Args>
   void warn(fmt::format_string<Args...> format, Args&&... args) {
-    write(spdlog::level::warn, format, std::forward<Args>(args)...);
+    write(LogLevel::Warning, format, std::forward<Args>(args)...);
   }
   template <class... Args>
   void error(fmt::format_string<Args...> format, Args&&... args) {
-    write(spdlog::level::err, format, std::forward<Args>(args)...);
+    write(LogLevel::Error, format, std::forward<Args>(args)...);
   }
   template <class... Args>
   void info(fmt::format_string<Args...> format, Args&&... args) {
-    write(spdlog::level::info, format, std::forward<Args>(args)...);
+    write(LogLevel::Info, format, std::forward<Args>(args)...);
   }
 
  private:
   template <class... Args>
-  void write(spdlog::level::level_enum level, fmt::format_string<Args...> format, Args&&... args) {
+  void write(LogLevel level, fmt::format_string<Args...> format, Args&&... args) {
     const auto now = monotonicNow();
     left_ = std::min(most_, left_ + secondsBetween(std::exchange(last_, now), now));
     if (left_ < 1.0) {
@@ -41,10 +41,10 @@ class LogThrottle {
       return;
     }
     left_ -= 1.0;
-    std::string text = fmt::format(format, std::forward<Args>(args)...);
+    std::string text = fmt::vformat(format, fmt::make_format_args(args...));
     if (const auto more = std::exchange(kept_back_, 0); more > 0)
-      text += fmt::format(" (and {} such lines before it)", more);
-    logger(logger_name_)->log(level, "{}", text);
+      text += " (and " + std::to_string(more) + " such lines before it)";
+    logger(logger_name_)->write(level, "{}", fmt::make_format_args(text));
   }
 
   std::string logger_name_;

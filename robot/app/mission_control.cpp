@@ -2,6 +2,7 @@
 
 #include "common/core/log.h"
 #include "common/core/units.h"
+#include "robot/app/preflight.h"
 #include "robot/safety/gate_rules.h"
 
 namespace kiln {
@@ -205,9 +206,10 @@ void MissionControl::observeStop(Stamp now) {
   stop_log_.error("{}; clear it from a station that holds the lease", parts_.host.reason());
 }
 
-void MissionControl::holdMission(HoldReason reason, const std::string& text, Stamp now) {
-  parts_.host.hold(reason, text, now);
-  logger("mission")->error("{}; the mission waits until an operator resumes it", text);
+void MissionControl::checkPosition(const std::string& objection, Stamp now) {
+  if (objection.empty() || parts_.host.phase() != MissionPhase::Running) return;
+  parts_.host.hold(HoldReason::PositionLost, objection, now);
+  logger("mission")->error("{}; the mission waits until an operator resumes it", objection);
 }
 
 void MissionControl::onReset(Stamp now) {
@@ -223,6 +225,31 @@ void MissionControl::step(Stamp now) {
     if (!parts_.macros.running()) parts_.authority.endHold(HoldKind::Macro);
   }
   parts_.host.tick(now);
+}
+
+RobotStatus MissionControl::status(const RobotBelief& belief, std::vector<Check> checks,
+                                   Stamp now) const {
+  RobotStatus s;
+  s.stamp = now;
+  s.mode = parts_.host.mode();
+  s.word = parts_.host.word(allOk(checks));
+  s.reason = s.word == StatusWord::NotReady ? firstFailure(checks) : parts_.host.reason();
+  s.phase = parts_.host.phase();
+  s.holds = parts_.host.holds();
+  s.checks = std::move(checks);
+  s.lease = parts_.authority.lease(now);
+  s.stop.latched = parts_.stop.latched();
+  s.stop.source = parts_.stop.source();
+  s.stop.since = parts_.stop.since();
+  s.stop.generation = parts_.stop.generation();
+  s.figures = parts_.host.mission().figures(now);
+  s.macro = parts_.macros.status();
+  s.speed_scale = parts_.teleop.speedScale();
+  s.mission_elapsed_s = belief.elapsedS(now);
+  s.mission_limit_s = parts_.host.mission().limitS();
+  s.resets = belief.resets;
+  s.alarms = parts_.alarms.list();
+  return s;
 }
 
 }  // namespace kiln

@@ -47,12 +47,16 @@ class MissionControl final : public Authority::Handler {
   /// A STOP from anywhere holds the mission and ends what is done by hand. Before anything of a
   /// tick.
   void observeStop(Stamp now);
-  /// Autonomy may not go on: the mission waits, with the reason, for an operator to resume it.
-  void holdMission(HoldReason reason, const std::string& text, Stamp now);
+  /// A mission does not go on from a place that nobody knows: it waits, with the reason, for an
+  /// operator to resume it. @param objection  of the localisation; empty: none.
+  void checkPosition(const std::string& objection, Stamp now);
   /// The world says that the robot was carried back to its start.
   void onReset(Stamp now);
   /// Steps what runs in this mode: machine or macro.
   void step(Stamp now);
+  /// Mode, mission, operators and STOP; what devices and localisation know is left to others.
+  [[nodiscard]] RobotStatus status(const RobotBelief& belief, std::vector<Check> checks,
+                                   Stamp now) const;
 
  private:
   CommandAck executeDiscrete(const Command& command, Stamp now);

@@ -1,15 +1,15 @@
 #include "robot/app/operator_desk.h"
 
-#include <filesystem>
 #include <utility>
 
-#include "common/config/resources.h"
+#include "robot/app/robot_macros.h"
 #include "robot/app/run_recorder.h"
 
 namespace kiln {
 
 Result<void> OperatorDesk::open(Hooks hooks) {
-  auto macros = readMacros();
+  auto macros = robotMacros(body_.robot, body_.move_arm, body_.settings.macros, mission_.mission(),
+                            body_.options.mission);
   if (!macros) return tl::make_unexpected(macros.error());
   macros_.emplace(MacroRunner::Parts{body_.pose,
                                      [this](const std::string& place) {
@@ -24,20 +24,6 @@ Result<void> OperatorDesk::open(Hooks hooks) {
       std::move(hooks.set_pose),
       recorder ? [recorder](bool on) { recorder->set(on); } : std::function<void(bool)>()});
   return {};
-}
-
-Result<std::vector<Macro>> OperatorDesk::readMacros() const {
-  const auto folder = resourcePath("macros");
-  if (!folder) return tl::make_unexpected(folder.error());
-  std::vector<std::string> folders{*folder};
-  const std::string of_mission = *folder + "/" + body_.options.mission;
-  if (std::filesystem::is_directory(of_mission)) folders.push_back(of_mission);
-  const MacroConfig& config = body_.settings.macros;
-  MacroStepKinds kinds =
-      robotMacroSteps({body_.robot, body_.robot.X_flange_nozzle.pose(), body_.move_arm, config});
-  for (MacroStepKind& kind : mission_.mission().macroSteps(config))
-    kinds.push_back(std::move(kind));
-  return loadMacros(folders, kinds);
 }
 
 void OperatorDesk::handleCommands(Stamp now) {

@@ -37,6 +37,7 @@ class OperatorDesk {
   void handleCommands(Stamp now);
 
   [[nodiscard]] MissionControl& control() { return *control_; }
+  [[nodiscard]] const MissionControl& control() const { return *control_; }
   [[nodiscard]] const Authority& authority() const { return authority_; }
   [[nodiscard]] const Teleop& teleop() const { return teleop_; }
   [[nodiscard]] const MacroRunner& macros() const { return *macros_; }
@@ -44,9 +45,6 @@ class OperatorDesk {
   [[nodiscard]] const AlarmBook& alarms() const { return alarms_; }
 
  private:
-  /// The macros of every robot and those of the mission.
-  [[nodiscard]] Result<std::vector<Macro>> readMacros() const;
-
   RobotBody& body_;
   RobotMission& mission_;
   OperatorLink* link_;

@@ -59,7 +59,6 @@ struct Robot::Impl {
   void readOdometry(Stamp now);
   [[nodiscard]] bool noticeReset(Stamp now);
   void processPerception(Stamp now);
-  void checkPosition(Stamp now);
   void updateBelief(Stamp now);
   void startArenaClock();
   void updateReport();
@@ -77,7 +76,7 @@ struct Robot::Impl {
 void Robot::Impl::missionTick(Stamp now) {
   readOdometry(now);
   processPerception(now);
-  checkPosition(now);
+  desk.control().checkPosition(localization.objection(now), now);
   localization.monitorMotion(now);
   desk.handleCommands(now);
   reporting.runChecks(now);
@@ -118,13 +117,6 @@ void Robot::Impl::processPerception(Stamp now) {
   }
   intake.tick();
   localization.update(now);
-}
-
-/// A mission does not go on from a place that nobody knows.
-void Robot::Impl::checkPosition(Stamp now) {
-  const std::string objection = localization.objection(now);
-  if (objection.empty() || mission.host().phase() != MissionPhase::Running) return;
-  desk.control().holdMission(HoldReason::PositionLost, objection, now);
 }
 
 void Robot::Impl::updateBelief(Stamp now) {

@@ -90,61 +90,35 @@ void RobotReporting::raiseMissionAlarms(Stamp now) {
   mission_alarms_ = std::move(raised);
 }
 
-StopStatus RobotReporting::stopStatus(Stamp now) const {
-  StopStatus s;
-  s.latched = body_.stop.latched();
-  s.source = body_.stop.source();
-  s.since = body_.stop.since();
-  s.generation = body_.stop.generation();
+RobotStatus RobotReporting::status(Stamp now) const {
+  const auto arm_state = body_.devices.arm.state();
+  const auto base_state = body_.devices.base.state();
   PumpsState none;  // at rest
   none.stamp = now;
-  proveStandstill(s, body_.devices.arm.state(), body_.devices.base.state(),
-                  body_.devices.pumps ? body_.pump_device.state() : std::optional(none), now);
-  return s;
-}
-
-RobotStatus RobotReporting::status(Stamp now) const {
-  const Mission& mission = parts_.mission.mission();
-  const MissionHost& host = parts_.mission.host();
-  RobotStatus s;
-  s.stamp = now;
+  RobotStatus s = parts_.desk.control().status(body_.belief, checks_, now);
   s.seq = status_seq_;
   s.robot_name = body_.settings.name;
   s.version = body_.options.version;
   s.environment = body_.options.environment;
-  s.mode = host.mode();
-  s.word = host.word(allOk(checks_));
-  s.reason = s.word == StatusWord::NotReady ? firstFailure(checks_)
-             : s.word == StatusWord::Auto   ? silent_device_
-                                            : host.reason();
-  s.phase = host.phase();
-  s.holds = host.holds();
-  s.checks = checks_;
-  s.lease = parts_.desk.authority().lease(now);
-  s.stop = stopStatus(now);
+  if (s.word == StatusWord::Auto) s.reason = silent_device_;
+  proveStandstill(s.stop, arm_state, base_state,
+                  body_.devices.pumps ? body_.pump_device.state() : std::optional(none), now);
   s.X_map_base = parts_.localization.pose();
   s.pose_age_s = parts_.localization.tracked().age_s;
-  s.twist = knownTwist(body_.base.tracking().measured, body_.devices.base.state(), now);
-  if (const auto arm_state = body_.devices.arm.state()) s.arm = *arm_state;
-  if (const auto base_state = body_.devices.base.state()) {
+  s.twist = knownTwist(body_.base.tracking().measured, base_state, now);
+  if (arm_state) s.arm = *arm_state;
+  if (base_state) {
     for (std::size_t i = 0; i < 4; ++i) s.wheel_steer_rad[i] = base_state->wheels[i].steer_rad;
-    s.battery_v = base_state->battery_v;
-    s.battery_a = base_state->battery_a;
   }
-  s.figures = mission.figures(now);
-  s.macro = parts_.desk.macros().status();
+  s.battery_v = knownOf(base_state, &BaseState::battery_v, now);
+  s.battery_a = knownOf(base_state, &BaseState::battery_a, now);
   if (body_.options.recorder) s.recording = body_.options.recorder->status();
-  s.speed_scale = parts_.desk.teleop().speedScale();
-  s.mission_elapsed_s = body_.belief.elapsedS(now);
-  s.mission_limit_s = mission.limitS();
-  s.resets = body_.belief.resets;
-  s.alarms = parts_.desk.alarms().list();
   if (parts_.link) {
     s.drops = parts_.link->drops();
     for (const OperatorPeer& peer : parts_.link->operators()) s.operators.push_back(peer.name);
   }
-  s.drops.push_back(
-      {"perception", parts_.intake.perception().droppedFrames() + mission.droppedFrames()});
+  s.drops.push_back({"perception", parts_.intake.perception().droppedFrames() +
+                                       parts_.mission.mission().droppedFrames()});
   if (body_.options.recorder) s.drops.push_back({"recorder", s.recording.dropped});
   return s;
 }

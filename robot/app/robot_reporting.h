@@ -48,7 +48,6 @@ class RobotReporting {
  private:
   void raiseMissionAlarms(Stamp now);
   [[nodiscard]] RobotStatus status(Stamp now) const;
-  [[nodiscard]] StopStatus stopStatus(Stamp now) const;
   [[nodiscard]] Scene scene(Stamp now) const;
   [[nodiscard]] PreflightInputs preflightInputs(Stamp now) const;
   [[nodiscard]] std::vector<std::string> missingTransforms(Stamp now) const;

@@ -12,6 +12,7 @@ constexpr double kWheelRest_radps = 0.1;
 constexpr double kPumpRest_a = 0.3;
 constexpr double kProofAge_s = 0.1;
 constexpr double kAhead_s = 0.02;  // clocks of devices and robot
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 template <class State>
 bool young(const std::optional<State>& state, Stamp now) {
@@ -38,8 +39,11 @@ void proveStandstill(StopStatus& status, const std::optional<ArmState>& arm,
       status.latched && status.arm_at_rest && status.base_at_rest && status.pumps_at_rest;
 }
 
+double knownOf(const std::optional<BaseState>& base, double BaseState::*number, Stamp now) {
+  return young(base, now) ? (*base).*number : kUnknown;
+}
+
 Twist2 knownTwist(const Twist2& measured, const std::optional<BaseState>& base, Stamp now) {
-  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   return young(base, now) ? measured : Twist2{kUnknown, kUnknown, kUnknown};
 }
 

@@ -22,4 +22,8 @@ void proveStandstill(StopStatus& status, const std::optional<ArmState>& arm,
 [[nodiscard]] Twist2 knownTwist(const Twist2& measured, const std::optional<BaseState>& base,
                                 Stamp now);
 
+/// A number of the base's newest report; NaN when it has not reported for 0.1 s.
+[[nodiscard]] double knownOf(const std::optional<BaseState>& base, double BaseState::*number,
+                             Stamp now);
+
 }  // namespace kiln

@@ -20,7 +20,7 @@ const Eigen::Vector3d kBelowTheFloor(0, 0, -5);  // as in the model
 /// MuJoCo calls this and must not get control back: its state is undefined afterwards.
 void onMujocoError(const char* message) {
   logger("sim.physics")
-      ->critical("MuJoCo stopped: {}; the world ends here, please start it again", message);
+      ->error("MuJoCo stopped: {}; the world ends here, please start it again", message);
   std::_Exit(3);
 }
 

@@ -92,7 +92,7 @@ void OperatorRig::tick(bool heard) {
     p.control.onReset(now());
   }
   if (!located_ && p.host.phase() == MissionPhase::Running) {
-    p.control.holdMission(HoldReason::PositionLost, "position lost", now());
+    p.control.checkPosition("position lost", now());
     machine_asleep_ = true;
   }
   handleCommands(heard);

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <array>
 
+#include <nlohmann/json.hpp>
+
 #include "common/core/check.h"
 #include "tests/fuzz/operator_rig_parts.h"
 
@@ -256,7 +258,7 @@ void OperatorRig::killAndResume() {
   const auto restored = parts_->host.restore(*checkpoint, now());
   if (!restored || parts_->machine.info().mission_uuid != checkpoint->fsm.mission_uuid ||
       parts_->belief.clock_start != checkpoint->robot.clock_start ||
-      parts_->mission.save() != checkpoint->mission)
+      parts_->mission.save() != *checkpoint->mission)
     breaks("7: id, clock or database of the mission were lost");
   const bool stood = !parts_->machine.running() || !checkpoint->holds.empty();
   if (stood && !asleep_) asleep_since_ = now();

@@ -11,8 +11,10 @@
 #include "common/core/manual_executor.h"
 #include "common/geom/frames.h"
 #include "robot/app/mission_control.h"
+#include "robot/app/robot_macros.h"
 #include "robot/app/robot_settings.h"
 #include "robot/app/safety_files.h"
+#include "robot/app/standstill.h"
 #include "robot/app/state_history.h"
 #include "robot/app/telemetry_hub.h"
 #include "robot/app/trajectory_log.h"
@@ -26,7 +28,6 @@ namespace {
 constexpr double kImagePeriod_s = 1.0 / 8.77;
 constexpr std::size_t kBurning = 1;  ///< index of the place
 constexpr double kStandstill_mps = 0.02;
-constexpr double kRest_radps = 0.02, kPumpRest_a = 0.3;
 
 template <class T>
 T value(Result<T> result) {
@@ -49,7 +50,6 @@ struct TestRobot::Impl {
   [[nodiscard]] GateSituation situation() const;
   [[nodiscard]] std::string positionLost() const;
   [[nodiscard]] std::optional<Eigen::Isometry3d> flangeAt(Stamp stamp) const;
-  [[nodiscard]] StopStatus stopStatus() const;
 
   TestRobot& robot_;
   ManualClock clock_{Stamp{std::chrono::seconds(1000)}};
@@ -130,16 +130,11 @@ TestRobot::Impl::Impl(TestRobot& robot)
   info_.mission = "fire";
   info_.mission_uuid = "test-uuid";
   info_.actuators = Teleop::actuators();
-  MacroStepKinds kinds =
-      robotMacroSteps({geometry_, geometry_.X_flange_nozzle.pose(), move_arm_, settings_.macros});
-  for (MacroStepKind& kind : mission_->macroSteps(settings_.macros))
-    kinds.push_back(std::move(kind));
-  const std::string folder = value(resourcePath("macros"));
   macros_.emplace(
       MacroRunner::Parts{[this] { return pose(); },
                          [this](const std::string& place) { return mission_->workPose(place); },
                          [this] { return authority_.epoch().value(); }},
-      value(loadMacros({folder, folder + "/fire"}, kinds)));
+      value(robotMacros(geometry_, move_arm_, settings_.macros, *mission_, "fire")));
   host_ = std::make_unique<MissionHost>(*mission_, belief_, stop_, clock_);
   control_ = std::make_unique<MissionControl>(MissionControl::Parts{
       *host_, authority_, teleop_, *macros_, alarms_, stop_, arm_device_, arm_, &referee_,
@@ -186,8 +181,7 @@ void TestRobot::Impl::mission(Stamp now) {
   base_.placeInMap(positionLost().empty()
                        ? std::optional(pose() * inverse(base_.tracking().X_odom_base))
                        : std::nullopt);
-  if (!positionLost().empty() && host_->phase() == MissionPhase::Running)
-    control_->holdMission(HoldReason::PositionLost, positionLost(), now);
+  control_->checkPosition(positionLost(), now);
   control_->observeStop(now);
   std::vector<OperatorPeer> peers;
   for (auto& [client, peer] : peers_) {
@@ -250,21 +244,6 @@ void TestRobot::Impl::carryToStart() {
   control_->onReset(now());
 }
 
-StopStatus TestRobot::Impl::stopStatus() const {
-  StopStatus s;
-  s.latched = stop_.latched();
-  s.source = stop_.source();
-  s.since = stop_.since();
-  s.generation = stop_.generation();
-  const std::array<double, 2> pumps_a = pumps_device_.state()->current_a;
-  s.arm_at_rest = (arm_device_.state()->qd.array().abs() <= kRest_radps).all();
-  s.base_at_rest = base_.tracking().at_rest;
-  s.pumps_at_rest =
-      std::all_of(pumps_a.begin(), pumps_a.end(), [](double a) { return a < kPumpRest_a; });
-  s.standstill_proven = s.latched && s.arm_at_rest && s.base_at_rest && s.pumps_at_rest;
-  return s;
-}
-
 TestRobot::TestRobot() {
   checks = {{"Devices", true, "connected"}, {"LiDAR", true, "0.05 s old"}, {"Disk", true, "41 GB"}};
   impl_ = std::make_unique<Impl>(*this);
@@ -310,32 +289,17 @@ void TestRobot::setHeard(const std::string& client, bool heard) {
 void TestRobot::stop(const std::string& who) { (void)impl_->stop_.set(who, now()); }
 
 RobotStatus TestRobot::status() const {
-  RobotStatus s;
-  s.stamp = now();
+  const auto base = impl_->base_device_.state();
+  RobotStatus s = impl_->control_->status(impl_->belief_, impl_->allChecks(), now());
   s.version = "test";
-  s.mode = impl_->host_->mode();
-  s.checks = impl_->allChecks();
-  s.word = impl_->host_->word(allOk(s.checks));
-  s.reason = s.word == StatusWord::NotReady ? firstFailure(s.checks) : impl_->host_->reason();
-  s.phase = impl_->host_->phase();
-  s.holds = impl_->host_->holds();
-  s.lease = impl_->authority_.lease(now());
-  s.stop = impl_->stopStatus();
+  proveStandstill(s.stop, impl_->arm_device_.state(), base, impl_->pumps_device_.state(), now());
   s.arm = *impl_->arm_device_.state();
-  const BaseState wheels = *impl_->base_device_.state();
   s.X_map_base = pose();
-  s.twist = impl_->base_.tracking().measured;
-  for (std::size_t i = 0; i < 4; ++i) s.wheel_steer_rad[i] = wheels.wheels[i].steer_rad;
-  s.battery_v = wheels.battery_v;
-  s.figures = impl_->mission_->figures(now());
-  s.macro = impl_->macros_->status();
+  s.twist = knownTwist(impl_->base_.tracking().measured, base, now());
+  for (std::size_t i = 0; i < 4; ++i) s.wheel_steer_rad[i] = base->wheels[i].steer_rad;
+  s.battery_v = base->battery_v;
   s.recording = impl_->recording_;
   if (impl_->recording_.on) s.recording.duration_s = toSeconds(now() - impl_->recording_since_);
-  s.speed_scale = impl_->teleop_.speedScale();
-  s.mission_elapsed_s = impl_->belief_.elapsedS(now());
-  s.mission_limit_s = impl_->mission_->limitS();
-  s.resets = impl_->belief_.resets;
-  s.alarms = impl_->alarms_.list();
   for (const auto& [client, peer] : impl_->peers_) s.operators.push_back(peer.name);
   return s;
 }

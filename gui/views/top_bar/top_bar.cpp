@@ -141,7 +141,10 @@ void TopBar::refresh() {
   const auto judged = [shown](bool low) {
     return shown == AgeLevel::Fresh && low ? AgeLevel::Amber : shown;
   };
-  battery_->set(QStringLiteral("%1 V").arg(status->battery_v, 0, 'f', 1),
+  // A base that is silent tells nothing of its battery.
+  battery_->set(std::isfinite(status->battery_v)
+                    ? QStringLiteral("%1 V").arg(status->battery_v, 0, 'f', 1)
+                    : QStringLiteral("–"),
                 judged(status->battery_v < kBatteryLow_v));
   battery_->setBar((status->battery_v - kBatteryEmpty_v) / (kBatteryFull_v - kBatteryEmpty_v));
   const double left_s = status->mission_limit_s - status->mission_elapsed_s;

@@ -1,5 +1,6 @@
 #include "robot/missions/common/mission_checkpoint.h"
 
+#include <nlohmann/json.hpp>
 #include <zlib.h>
 
 #include "common/core/regular_file.h"
@@ -57,8 +58,8 @@ Result<MissionCheckpoint> checkpointFrom(const json& body) {
   auto robot = beliefFromJson(body.at("robot"));
   if (!robot) return tl::make_unexpected(robot.error());
   out.robot = *robot;
-  out.log = body.at("log");
-  out.mission = body.at("mission");
+  out.log = std::make_shared<const json>(body.at("log"));
+  out.mission = std::make_shared<const json>(body.at("mission"));
   return out;
 }
 
@@ -76,8 +77,8 @@ std::string encodeCheckpoint(const MissionCheckpoint& checkpoint) {
                        {"arrived", fsm.arrived}}},
                      {"holds", holdsToJson(checkpoint.holds)},
                      {"robot", beliefToJson(checkpoint.robot)},
-                     {"log", checkpoint.log},
-                     {"mission", checkpoint.mission}};
+                     {"log", checkpoint.log ? *checkpoint.log : json()},
+                     {"mission", checkpoint.mission ? *checkpoint.mission : json()}};
   const json out = {{"format", kFormat},
                     {"version", MissionCheckpoint::kVersion},
                     {"crc32", checksum(body)},

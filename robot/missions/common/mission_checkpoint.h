@@ -1,9 +1,10 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "common/core/error.h"
 #include "common/model/status.h"
@@ -21,8 +22,8 @@ struct MissionCheckpoint {
   /// Why the mission stood still; empty: it ran, and --resume may go on by itself.
   std::vector<MissionHold> holds{};
   RobotBelief robot{};
-  nlohmann::json log;      ///< MissionLog::save()
-  nlohmann::json mission;  ///< Mission::save()
+  std::shared_ptr<const nlohmann::json> log{};      ///< MissionLog::save()
+  std::shared_ptr<const nlohmann::json> mission{};  ///< Mission::save()
 };
 
 /// JSON with a CRC-32 over its body.

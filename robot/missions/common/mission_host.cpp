@@ -3,6 +3,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "common/core/check.h"
 #include "common/core/log.h"
@@ -36,15 +37,16 @@ MissionCheckpoint MissionHost::checkpoint() const {
   // Waiting for its sensors after a restart, a mission runs as far as the next restart goes.
   if (wait_ == Wait::None) out.holds = holds();
   out.robot = belief_;
-  out.log = log_.save();
-  out.mission = mission_.save();
+  out.log = std::make_shared<const nlohmann::json>(log_.save());
+  out.mission = std::make_shared<const nlohmann::json>(mission_.save());
   return out;
 }
 
 Result<void> MissionHost::restore(const MissionCheckpoint& saved, Stamp now) {
   const Duration shift = now < saved.stamp ? now - saved.stamp : Duration{};
-  if (auto log = log_.restore(saved.log, saved.stamp, shift); !log) return log;
-  if (auto mission = mission_.restore(saved.mission); !mission) return mission;
+  KILN_CHECK(saved.log && saved.mission);  // whoever decodes it fills them
+  if (auto log = log_.restore(*saved.log, saved.stamp, shift); !log) return log;
+  if (auto mission = mission_.restore(*saved.mission); !mission) return mission;
   belief_ = saved.robot;
   belief_.continueClock(saved.stamp, now);
   machine_.onTransition({});  // nothing is kept before it is known why the mission stood

@@ -30,7 +30,7 @@ TEST(Log, EveryLoggerReachesAnAddedSinkWithNameAndLevel) {
 }
 
 TEST(Log, ReturnsTheSameLoggerForTheSameName) {
-  EXPECT_EQ(logger("test.same").get(), logger("test.same").get());
+  EXPECT_EQ(logger("test.same"), logger("test.same"));
 }
 
 }  // namespace

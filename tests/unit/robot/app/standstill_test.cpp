@@ -73,5 +73,16 @@ TEST(Standstill, WhatMovesIsSilentOrIsNoNumberProvesNothingOfItsOwnPart) {
   for (const Break& b : pumps) EXPECT_EQ(rest(b), (std::array{true, true, false}));
 }
 
+TEST(Standstill, ASilentBaseTellsNeitherItsSpeedNorItsBattery) {
+  Devices devices;
+  devices.base.battery_v = 47.5;
+  EXPECT_EQ(knownOf(devices.base, &BaseState::battery_v, devices.now), 47.5);
+  EXPECT_EQ(knownTwist({0.3, 0, 0}, devices.base, devices.now).vx_mps, 0.3);
+  devices.base.stamp = devices.now - milliseconds(150);
+  EXPECT_TRUE(std::isnan(knownOf(devices.base, &BaseState::battery_v, devices.now)));
+  EXPECT_TRUE(std::isnan(knownTwist({0.3, 0, 0}, devices.base, devices.now).vx_mps));
+  EXPECT_TRUE(std::isnan(knownOf(std::nullopt, &BaseState::battery_v, devices.now)));
+}
+
 }  // namespace
 }  // namespace kiln

@@ -1,6 +1,7 @@
 #include "robot/missions/common/mission_checkpoint.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 namespace kiln {
 namespace {
@@ -11,8 +12,9 @@ MissionCheckpoint sample() {
   out.fsm = {"fire", "uuid", 12, "AimHose", "AimHose"};
   out.robot.X_map_base = {1.25, -0.1, 1.0 / 3.0};
   out.holds = {{HoldReason::Stop, "STOP by Ann"}};
-  out.log = {{"begun_ns", 5}};
-  out.mission = {{"passed", 7}, {"share", 0.1}};
+  out.log = std::make_shared<const nlohmann::json>(nlohmann::json{{"begun_ns", 5}});
+  out.mission =
+      std::make_shared<const nlohmann::json>(nlohmann::json{{"passed", 7}, {"share", 0.1}});
   return out;
 }
 
@@ -25,8 +27,8 @@ TEST(MissionCheckpoint, ComesBackAsItWas) {
   EXPECT_EQ(back->robot.X_map_base.yaw_rad, 1.0 / 3.0);
   ASSERT_EQ(back->holds.size(), 1U);
   EXPECT_EQ(back->holds[0].text, "STOP by Ann");
-  EXPECT_EQ(back->log, sample().log);
-  EXPECT_EQ(back->mission, sample().mission);
+  EXPECT_EQ(*back->log, *sample().log);
+  EXPECT_EQ(*back->mission, *sample().mission);
 }
 
 TEST(MissionCheckpoint, EveryTruncationIsRefused) {
