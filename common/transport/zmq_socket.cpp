@@ -131,7 +131,7 @@ bool ZmqSocket::send(std::initializer_list<std::string_view> parts) {
 std::optional<std::vector<std::string>> ZmqSocket::receive() { return receiveFrom(handle_); }
 
 void waitReadable(std::initializer_list<const ZmqSocket*> sockets, int wake_fd, int timeout_ms) {
-  constexpr std::size_t kMost = 6;
+  constexpr std::size_t kMost = 8;
   KILN_CHECK(2 * sockets.size() < kMost, sockets.size());
   std::array<zmq_pollitem_t, kMost> items{};
   std::size_t n = 0;
