@@ -1,9 +1,11 @@
+#include <QImage>
 #include <QPainter>
 
 #include "gui/views/scene3d/orbit_camera.h"
 #include "gui/views/scene3d/robot_shape.h"
 #include "gui/views/scene3d/scene_colors.h"
 #include "gui/views/scene3d/scene_labels.h"
+#include "gui/views/scene3d/scene_overlay.h"
 #include "gui/views/scene3d/scene_state.h"
 #include "gui/views/scene3d/top_view.h"
 #include "tests/gui/views/sample_world.h"
@@ -292,6 +294,69 @@ TEST_F(StationTest, TopViewDrawsTheRobotAndHidesALayer) {
   EXPECT_NE(shown, hidden);
   EXPECT_NE(shown.pixel(205, 150), qRgb(colors.ground.r, colors.ground.g, colors.ground.b));
   EXPECT_EQ(hidden.pixel(205, 155), qRgb(colors.ground.r, colors.ground.g, colors.ground.b));
+}
+
+/// A picture from above of items alone: how many of its pixels are drawn.
+struct ItemPicture {
+  explicit ItemPicture(Theme& theme) : colors(SceneColors::of(theme)) {
+    camera.setMode(OrbitCamera::Mode::Top);
+    camera.robotAt({0, 0, 0});
+  }
+  int drawn(const SceneItem& item) {
+    SceneSnapshot snapshot;
+    snapshot.items = {item};
+    QImage image(400, 300, QImage::Format_RGB32);
+    image.fill(Qt::black);
+    QPainter painter(&image);
+    paintSceneOverlay(painter, snapshot, {}, camera, colors, image.size());
+    int count = 0;
+    for (int y = 0; y < image.height(); ++y)
+      for (int x = 0; x < image.width(); ++x) count += image.pixel(x, y) != qRgb(0, 0, 0) ? 1 : 0;
+    return count;
+  }
+  SceneColors colors;
+  OrbitCamera camera;
+};
+
+TEST_F(StationTest, AnArrowHasAHeadAndACylinderIsRound) {
+  ItemPicture picture(theme);
+  SceneItem item;
+  item.points = {{0, 0, 0}, {2, 0, 0}};
+  const int line = picture.drawn(item);
+  EXPECT_GT(line, 10);
+  item.shape = SceneItem::Shape::Arrow;
+  EXPECT_GT(picture.drawn(item), line);
+  SceneItem box;
+  box.shape = SceneItem::Shape::Box;
+  box.size = {2, 2, 0.01};
+  SceneItem cylinder = box;
+  cylinder.shape = SceneItem::Shape::Cylinder;
+  EXPECT_GT(picture.drawn(cylinder), 10);
+  EXPECT_LT(picture.drawn(cylinder), picture.drawn(box)) << "a circle is shorter than its square";
+}
+
+TEST_F(StationTest, AClickNamesTheLabelledItemNearestToIt) {
+  SceneSnapshot snapshot;
+  SceneItem left, right, nameless;
+  left.id = "left";
+  left.label = "place 1";
+  right.id = "right";
+  right.label = "place 2";
+  right.X_map_item.translation().x() = 2.0;
+  nameless.X_map_item.translation().x() = 1.0;
+  snapshot.items = {left, nameless, right};
+  OrbitCamera camera;
+  camera.setMode(OrbitCamera::Mode::Top);
+  camera.robotAt({0, 0, 0});
+  const QSize size(800, 600);
+  const auto pixel = [&](const SceneItem& item) {
+    const auto p = camera.project(item.X_map_item.translation(), size.width(), size.height());
+    return QPointF(p->x(), p->y());
+  };
+  ASSERT_NE(itemAt(snapshot, camera, size, pixel(left)), nullptr);
+  EXPECT_EQ(itemAt(snapshot, camera, size, pixel(left) + QPointF(5, 5))->id, "left");
+  EXPECT_EQ(itemAt(snapshot, camera, size, pixel(right))->id, "right");
+  EXPECT_EQ(itemAt(snapshot, camera, size, pixel(nameless)), nullptr);
 }
 
 }  // namespace

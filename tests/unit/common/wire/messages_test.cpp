@@ -133,7 +133,11 @@ TEST(Messages, SceneAndGraphComeBack) {
   estimate.covariance = Eigen::Matrix3d::Random();
   estimate.label = "place 1 · 0.86 m";
   estimate.detail = "127 °C peak";
-  scene.items = {line, estimate};
+  SceneItem arrow = line, cylinder;
+  arrow.shape = SceneItem::Shape::Arrow;
+  cylinder.shape = SceneItem::Shape::Cylinder;
+  cylinder.size = {0.1, 0.2, 0.3};
+  scene.items = {line, estimate, arrow, cylinder};
   scene.detail = {at(1), "kiln.fire.v1.FireSite", "bytes"};
   scene.planned.waypoints_map = {{1, 2, 3}};
   scene.arena.push_back({"wall", makePose({1, 2, 3}, {0, 0, 1}), {1, 1, 1}, 0xff00ff});
@@ -141,6 +145,8 @@ TEST(Messages, SceneAndGraphComeBack) {
   ASSERT_TRUE(back.has_value()) << back.error();
   EXPECT_TRUE(back->items.at(1).covariance.isApprox(estimate.covariance));
   EXPECT_EQ(back->items.at(1).style, ItemStyle::Target);
+  EXPECT_EQ(back->items.at(2).shape, SceneItem::Shape::Arrow);
+  EXPECT_EQ(back->items.at(3).shape, SceneItem::Shape::Cylinder);
   EXPECT_EQ(encode(*back), encode(scene));
 
   FsmStatus status;
