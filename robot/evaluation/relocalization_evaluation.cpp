@@ -8,6 +8,7 @@
 #include "common/core/units.h"
 #include "common/robot_model/robot_calibration.h"
 #include "robot/app/robot_settings.h"
+#include "robot/app/safety_files.h"
 #include "robot/evaluation/base_trace.h"
 #include "robot/evaluation/child_process.h"
 #include "robot/evaluation/evaluation.h"
@@ -138,7 +139,7 @@ Result<std::vector<Trial>> tryOut(int seed, bool calibrate) {
   bench.robot = *robot;
   auto settings = loadResource<RobotSettings>("config/robot.yaml");
   if (!settings) return tl::make_unexpected(settings.error());
-  auto arena = loadResource<ArenaMap>(settings->arena);
+  auto arena = loadArena(settings->arena);
   if (!arena) return tl::make_unexpected(arena.error());
   bench.arena = *arena;
   bench.localizer = settings->localization.localizerConfig();
