@@ -172,9 +172,16 @@ struct BaseController::Impl {
       measured_steer[i] = state->wheels[i].steer_rad;
       current[i] = state->wheels[i].drive_current_a;
     }
-    if (!seen_state) steer_command = measured_steer;
-    seen_state = true;
     measured = kinematics.forward(state->wheels);
+    if (!seen_state) takeOver();
+    seen_state = true;
+  }
+
+  /// The base may still roll, as a program that was killed had driven it: its ramp to rest begins at
+  /// the speed that it has, and nobody takes that for disobedience.
+  void takeOver() {
+    steer_command = measured_steer;
+    if (weighted(measured.twist).norm() > kMovingSpeed) limiter.reset(limited(measured.twist));
   }
 
   void publish(Stamp now, const Wish& w, bool fresh) {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "robot/safety/motion_watch.h"
 #include "tests/support/fake_devices.h"
 
 namespace kiln {
@@ -128,6 +129,26 @@ TEST_F(BaseControllerTest, RampsToZeroWithin250msOfTheLastSetpoint) {
   while (controller.tracking().commanded.vx_mps > 0.0) tick();
   EXPECT_NEAR(max_decel, 1.8, 0.01);
   EXPECT_LE(toSeconds(clock.now() - ramp), 0.70);  // v / a + a / j = 0.56 + 0.09 s
+}
+
+// A daemon that is killed on its way, and one that goes on with --resume.
+TEST_F(BaseControllerTest, TakesOverABaseThatStillRollsAndBringsItToRestUnblamed) {
+  drive({1.0, 0, 0}, 3.0);
+  BaseController next{{}, robot, base, stop};
+  MotionWatch watch{{}};
+  double before_mps = 1.0;
+  for (int i = 0; i < 125; ++i) {
+    clock.advanceBy(kTick);
+    base.advance();
+    next.tick(clock.now());
+    const BaseTracking t = next.tracking();
+    if (i == 0) EXPECT_NEAR(t.commanded.vx_mps, 1.0, 0.02) << "no jump";
+    EXPECT_GE(t.measured.vx_mps, -1e-6);
+    EXPECT_LE((before_mps - t.commanded.vx_mps) / toSeconds(kTick), 1.8 + 1e-6);
+    before_mps = t.commanded.vx_mps;
+    EXPECT_EQ(watch.step({t.stamp, t.commanded, t.measured, t.X_odom_base, std::nullopt}), "");
+  }
+  EXPECT_TRUE(next.tracking().at_rest);
 }
 
 TEST_F(BaseControllerTest, StopsOnTheLatchAndStaysStoppedAfterItIsCleared) {
