@@ -51,7 +51,8 @@ MainWindow::MainWindow(const Ui& ui, StationModels& models, const Options& optio
   }
   column->addLayout(layout_->bottom());
   column->addWidget(alarms_);
-  new MissionPanels({ui_, models_, hold_}, {image_row_, scene_, macros_}, *options.panels, this);
+  new MissionPanels({ui_, models_, hold_, options.geometry},
+                    {image_row_, scene_, macros_, camera_}, *options.panels, this);
   connect(alarms_, &AlarmStrip::logRequested, this, [this] { showLog(!layout_->logShown()); });
   connect(&jump_, &ForcedJump::changed, this, [this] {
     if (jump_.phase() != ForcedJump::Phase::Idle) layout_->bringToFront(*fsm_);
@@ -75,7 +76,8 @@ void MainWindow::makeTiles(const Options& options) {
   image_row_ = new QHBoxLayout(images);
   image_row_->setContentsMargins(0, 0, 0, 0);
   image_row_->setSpacing(kGap_px);
-  image_row_->addWidget(new CameraTile(ui_, models_), 5);
+  camera_ = new CameraTile(ui_, models_);
+  image_row_->addWidget(camera_, 5);
   auto* teleop = new TeleopTile(ui_, hold_);
   macros_ = new MacrosTile(ui_, hold_);
   teleop->panel().listenIn(*macros_);

@@ -15,6 +15,7 @@ namespace kiln::gui {
 
 class ActButton;
 class AlarmStrip;
+class CameraTile;
 class FsmTile;
 class MacrosTile;
 class ReplayBar;
@@ -74,6 +75,7 @@ class MainWindow : public QWidget {
   SceneTile* scene_ = nullptr;
   QHBoxLayout* image_row_ = nullptr;
   MacrosTile* macros_ = nullptr;
+  CameraTile* camera_ = nullptr;
   Tile* timeline_tile_ = nullptr;
   TimelineView* timeline_ = nullptr;
   TileLayout* layout_ = nullptr;

@@ -3,6 +3,7 @@
 #include <QHBoxLayout>
 #include <algorithm>
 
+#include "gui/views/camera/camera_tile.h"
 #include "gui/views/macros/macros_tile.h"
 #include "gui/views/scene3d/scene_tile.h"
 
@@ -18,6 +19,7 @@ MissionPanels::MissionPanels(const PanelParts& parts, const Places& places,
       ui_(parts.ui),
       models_(parts.models),
       hold_(parts.hold),
+      geometry_(parts.geometry),
       places_(places),
       catalog_(catalog) {
   connect(&models_.mission, &Model::changed, this, &MissionPanels::refresh);
@@ -49,16 +51,18 @@ void MissionPanels::clear() {
   images_.clear();
   places_.scene->removeCards();
   places_.macros->setHands(nullptr);
+  places_.camera->setMarks(nullptr);
 }
 
 void MissionPanels::add(const PanelKind& kind) {
-  const PanelParts parts{ui_, models_, hold_};
+  const PanelParts parts{ui_, models_, hold_, geometry_};
   if (kind.image) {
     QWidget* image = kind.image(parts);
     places_.images->insertWidget(static_cast<int>(images_.size()), image, kImageStretch);
     images_.emplace_back(image);
   }
   if (kind.scene) places_.scene->addCard(kind.scene(parts, &places_.scene->canvas()));
+  if (kind.marks) places_.camera->setMarks(kind.marks(parts), geometry_);
   if (kind.hands) places_.macros->setHands(kind.hands(parts));
 }
 

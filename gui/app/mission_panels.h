@@ -8,6 +8,7 @@ class QHBoxLayout;
 
 namespace kiln::gui {
 
+class CameraTile;
 class MacrosTile;
 class SceneTile;
 
@@ -20,6 +21,7 @@ class MissionPanels : public QObject {
     QHBoxLayout* images;
     SceneTile* scene;
     MacrosTile* macros;
+    CameraTile* camera;
   };
   MissionPanels(const PanelParts& parts, const Places& places,
                 const std::vector<PanelKind>& catalog, QObject* parent = nullptr);
@@ -32,6 +34,7 @@ class MissionPanels : public QObject {
   Ui ui_;
   StationModels& models_;
   HoldToRun& hold_;
+  RobotGeometry geometry_;
   Places places_;
   const std::vector<PanelKind>& catalog_;
   std::vector<std::string> shown_;

@@ -12,6 +12,11 @@ namespace {
 constexpr double kPoll_s = 0.02;   // signals set a flag only, so every wait looks at it
 constexpr double kAnswer_s = 3.0;  // beyond the session's own 1 s, which makes a command UNKNOWN
 
+/// How to get control from who has it, if that is what it was refused for.
+std::string_view hintFor(const CommandUpdate& update) {
+  return update.code == "lease_held" || update.code == "no_lease" ? " (--take-over asks)" : "";
+}
+
 constexpr double kTakeOver_s = 12.0;  // the holder is asked for 10 s
 
 bool ended(const CommandUpdate& update) {
@@ -94,8 +99,7 @@ bool Console::takeControl() {
   }
   if (update) {
     printRefusal(toJson(*update),
-                 fmt::format("no control: {}{}", update->reason,
-                             update->code == "lease_held" ? " (--take-over asks)" : ""));
+                 fmt::format("no control: {}{}", update->reason, hintFor(*update)));
   } else {
     fail(kRefused, "no control: no answer from the robot");
   }
@@ -118,7 +122,7 @@ int Console::run(CommandBody body) {
     print(toJson(*update), text);
     return kDone;
   }
-  printRefusal(toJson(*update), text);
+  printRefusal(toJson(*update), fmt::format("{}{}", text, hintFor(*update)));
   return kRefused;
 }
 

@@ -313,6 +313,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return explain(app, error);
   }
+  if (request.options.name.empty()) request.options.name = defaultName();  // others must see who
   kiln::ctl::catchSignals();
   Console console(request.options);
   const int status = request.run(console);

@@ -18,8 +18,8 @@ GateDecision checkNumber(double value, double min, double max, std::string_view 
   if (!std::isfinite(value))
     return refuse("not_finite", fmt::format("{} is {}; not obeyed", what, value));
   if (value < min || value > max) {
-    return refuse("out_of_range", fmt::format("{} is {:.3g} {}; allowed {:.3g} to {:.3g}", what,
-                                              value, unit, min, max));
+    return refuse("out_of_range", fmt::format("{} is {:.3g}{}{}; allowed {:.3g} to {:.3g}", what,
+                                              value, unit.empty() ? "" : " ", unit, min, max));
   }
   return {};
 }

@@ -113,7 +113,7 @@ struct SituationRule {
   }
   GateDecision wrongMode(const char* what, const char* where) const {
     return refuse("wrong_mode",
-                  fmt::format("the robot is in mode {}; {} need {}: change the mode first",
+                  fmt::format("the robot is in mode {}; {} only in {}: change the mode first",
                               toString(now.mode), what, where));
   }
   static GateDecision refuseProtective() {

@@ -68,6 +68,7 @@ struct FirePlaceInfo {
   double yaw_rad = 0.0;                             ///< direction in which the opening looks
   bool visited = false;
   Pose2 nudge{};  ///< what the operator has moved it by so far; contained in p_map and yaw_rad
+  std::optional<Pose2> X_map_work{};  ///< base where the robot works at it; nullopt: not told
 };
 
 /// What the mission knows of its places, for scene and panels; mirrors kiln.fire.v1.FireSite.
@@ -81,6 +82,8 @@ struct FireSite {
   std::vector<Eigen::Vector3d> jet_map;  ///< predicted jet, metres
   bool spraying = false;
   std::vector<PlaceCheck> place_checks;  ///< newest of each place that was looked at
+  Eigen::Vector2d footprint_m =
+      Eigen::Vector2d::Zero();  ///< of the base, along X and Y; 0: not told
 };
 
 /// Tanks and pumps, left and right. Litres are the pump model times time: there is no flow sensor.

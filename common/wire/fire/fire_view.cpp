@@ -113,6 +113,31 @@ void addPlace(const FirePlaceInfo& place, bool named_by_fire, std::vector<SceneI
   out.push_back(std::move(name));
 }
 
+/// Where the base is to stand: its footprint, and an arrow to its front.
+void addWorkPose(const FirePlaceInfo& place, const Eigen::Vector2d& footprint_m,
+                 std::vector<SceneItem>& out) {
+  if (!place.X_map_work || place.visited || footprint_m.minCoeff() <= 0.0) return;
+  const Eigen::Isometry3d X = toIsometry(*place.X_map_work);
+  const double l = 0.5 * footprint_m.x(), w = 0.5 * footprint_m.y();
+  const auto add = [&](const std::vector<std::pair<double, double>>& corners) {
+    std::vector<Eigen::Vector3d> line;
+    for (const auto& [x, y] : corners) line.emplace_back(X * Eigen::Vector3d(x, y, kGround_m));
+    out.push_back(polyline(kPlaces, place.name, ItemStyle::Planned, 1.5, std::move(line)));
+  };
+  add({{l, w}, {-l, w}, {-l, -w}, {l, -w}, {l, w}});
+  add({{l - 0.3, 0.3}, {l, 0.0}, {l - 0.3, -0.3}});
+}
+
+/// A cross where the jet hits, seen through everything.
+void addAim(const JetAim& aim, ItemStyle style, std::vector<SceneItem>& out) {
+  constexpr double kArm_m = 0.08;
+  for (const Eigen::Vector3d& d :
+       {Eigen::Vector3d(Eigen::Vector3d::UnitX()), Eigen::Vector3d(Eigen::Vector3d::UnitY()),
+        Eigen::Vector3d(Eigen::Vector3d::UnitZ())})
+    out.push_back(
+        polyline(kJet, "aim", style, 2.5, {aim.p_map - kArm_m * d, aim.p_map + kArm_m * d}));
+}
+
 void addCheck(const PlaceCheck& check, std::vector<SceneItem>& out) {
   const auto add = [&](std::vector<SceneItem> items) {
     for (SceneItem& item : items) out.push_back(std::move(item));
@@ -174,7 +199,7 @@ MissionInfo missionInfo(double max_nudge_m, double max_nudge_deg) {
   go_on.needs_live = true;
   go_on.target = "place";
   info.commands = {nudge, go_on};
-  info.panels = {"fire.thermal", "fire.water", "fire.places"};
+  info.panels = {"fire.thermal", "fire.water", "fire.places", "fire.aim"};
   return info;
 }
 
@@ -212,13 +237,38 @@ std::vector<SceneItem> sceneItems(const FireSite& site) {
              std::any_of(site.fires.begin(), site.fires.end(),
                          [&](const FireEstimate& fire) { return fire.place == place.name; }),
              out);
+  for (const FirePlaceInfo& place : site.places) addWorkPose(place, site.footprint_m, out);
   for (const PlaceCheck& check : site.place_checks) addCheck(check, out);
   for (const FireEstimate& fire : site.fires)
     if (fire.p_map.allFinite()) out.push_back(fireItem(fire));
   if (!site.jet_map.empty())
     out.push_back(polyline(kJet, "jet", site.spraying ? ItemStyle::Active : ItemStyle::Planned,
                            site.spraying ? 4.0 : 1.0, site.jet_map));
+  if (const auto aim = jetAim(site))
+    addAim(*aim, site.spraying ? ItemStyle::Active : ItemStyle::Planned, out);
   return out;
+}
+
+std::optional<JetAim> jetAim(const FireSite& site) {
+  if (site.jet_map.empty()) return std::nullopt;
+  JetAim best{site.jet_map.back(), {}};
+  double nearest_m = kNearPlate_m;
+  for (const FirePlaceInfo& place : site.places) {
+    const Eigen::Vector3d out_of_plate(std::cos(place.yaw_rad), std::sin(place.yaw_rad), 0.0);
+    for (std::size_t i = 1; i < site.jet_map.size(); ++i) {
+      const Eigen::Vector3d &from = site.jet_map[i - 1], &to = site.jet_map[i];
+      const double before_m = out_of_plate.dot(from - place.p_map),
+                   after_m = out_of_plate.dot(to - place.p_map);
+      if (before_m < 0.0 || after_m >= 0.0) continue;
+      const Eigen::Vector3d at = from + before_m / (before_m - after_m) * (to - from);
+      const Eigen::Vector3d miss = at - place.p_map;
+      if (miss.norm() > nearest_m) continue;
+      nearest_m = miss.norm();
+      const Eigen::Vector3d left = Eigen::Vector3d::UnitZ().cross(-out_of_plate);
+      best = {at, place.name, left.dot(miss), miss.z()};
+    }
+  }
+  return best;
 }
 
 Eigen::Isometry3d frontOf(const FirePlaceInfo& place) {

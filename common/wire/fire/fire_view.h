@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,17 @@ inline constexpr const char* kContinueDespite = "continue_despite";
 /// Back from figures(); what is not among them stays zero.
 [[nodiscard]] WaterLevels waterLevels(const std::vector<Figure>& figures);
 [[nodiscard]] std::vector<SceneItem> sceneItems(const FireSite& site);
+
+/// Where the predicted jet hits. In `map`, metres.
+struct JetAim {
+  Eigen::Vector3d p_map = Eigen::Vector3d::Zero();
+  std::string place;    ///< whose plate it passes by kNearPlate_m at most; empty: none, its end
+  double left_m = 0.0;  ///< of the plate's centre, seen by who looks at the plate
+  double up_m = 0.0;    ///< above it
+};
+inline constexpr double kNearPlate_m = 0.6;
+/// @return nullopt without a jet.
+[[nodiscard]] std::optional<JetAim> jetAim(const FireSite& site);
 
 /// The front frame of a place (place_check.h) from its configured plate.
 [[nodiscard]] Eigen::Isometry3d frontOf(const FirePlaceInfo& place);

@@ -5,6 +5,7 @@
 #include <QToolButton>
 
 #include "common/wire/fire/fire_view.h"
+#include "gui/panels/fire/work_pose.h"
 #include "gui/widgets/text.h"
 
 namespace kiln::gui {
@@ -23,7 +24,11 @@ PumpPanel::PumpPanel(const Ui& ui, HoldToRun& hold, QWidget* parent)
   row->setContentsMargins(0, 0, 0, 0);
   row->setSpacing(8);
   row->addWidget(makeKeys());
-  row->addWidget(water_, 1);
+  auto* column = new QVBoxLayout;
+  column->setSpacing(0);
+  column->addWidget(new WorkPoseLine(ui, models_));
+  column->addWidget(water_);
+  row->addLayout(column, 1);
   connect(&hold_, &HoldToRun::tripped, this, [this](const QString&) {
     pump_->cancel();
     refresh();

@@ -3,12 +3,14 @@
 #include <QHBoxLayout>
 #include <QToolButton>
 
+#include "common/core/units.h"
 #include "gui/widgets/text.h"
 
 namespace kiln::gui {
 namespace {
 
-constexpr double kFrozen_s = 1.0;  // longer than the camera's own shutter pause of 0.6 s
+constexpr double kFrozen_s = 1.0;          // longer than the camera's own shutter pause of 0.6 s
+constexpr double kHfov_rad = 57.0 * kDeg;  // of the Lepton, as the robot's localisation has it
 constexpr int kColumn_px = 112;
 // A tile narrower than this keeps its room for the picture: numbers without words beside it.
 constexpr int kNarrow_px = 400;
@@ -38,11 +40,14 @@ QString rejectedText(const HeatDetections* heat) {
 
 }  // namespace
 
-ThermalTile::ThermalTile(const Ui& ui, StationModels& models, QWidget* parent)
+ThermalTile::ThermalTile(const Ui& ui, StationModels& models,
+                         const std::optional<RobotGeometry>& geometry, QWidget* parent)
     : Tile(ui, tr("Thermal"), parent),
       ui_(ui),
       models_(models),
       heat_(models.link),
+      aim_(models),
+      geometry_(geometry),
       view_(new ThermalView(ui)) {
   auto* content = new QWidget;
   auto* row = new QHBoxLayout(content);
@@ -51,6 +56,7 @@ ThermalTile::ThermalTile(const Ui& ui, StationModels& models, QWidget* parent)
   row->addWidget(view_, 1);
   row->addWidget(makeColumn());
   setContent(content);
+  connect(&aim_, &PictureMarks::changed, this, &ThermalTile::refresh);
   connect(&models_.thermal, &Model::changed, this, &ThermalTile::refresh);
   connect(&models_, &StationModels::aged, this, &ThermalTile::refreshAge);
   connect(&ui_.theme, &Theme::changed, this, &ThermalTile::restyle);
@@ -146,10 +152,29 @@ void ThermalTile::refreshAge() {
   setAge(age_s, models_.thermal.ageLevel());
   setInfo(models_.thermal.hasData() ? tr("%1 Hz").arg(models_.thermal.rateHz(), 0, 'f', 1)
                                     : QString());
-  setStaleText(tr("no new frame for %1").arg(ageText(age_s)), tr("temperatures may have changed"));
+  setStaleText(models_.link.readOnly() ? tr("recorded %1 before this moment").arg(ageText(age_s))
+                                       : tr("no new frame for %1").arg(ageText(age_s)),
+               tr("temperatures may have changed"));
   // Once the tile is hatched over it speaks for itself.
   view_->show(models_.thermal.image(), heat_.heat(),
               models_.thermal.ageLevel() == AgeLevel::Red ? QString() : refusal());
+  view_->setMarks(placedMarks());
+}
+
+std::vector<PlacedMark> ThermalTile::placedMarks() const {
+  const ThermalImagePtr& image = models_.thermal.image();
+  const RobotStatus* status = models_.status.status();
+  if (!geometry_ || !image || !status || models_.thermal.ageLevel() == AgeLevel::Red) return {};
+  const Eigen::Isometry3d X_map_camera = toIsometry(status->X_map_base) *
+                                         geometry_->X_base_flange(status->arm.q) *
+                                         geometry_->X_flange_thermal.pose();
+  std::vector<PlacedMark> out;
+  for (const PictureMark& mark : aim_.marks()) {
+    const auto share =
+        placeInPicture(mark.p_map, X_map_camera, kHfov_rad, {image->width, image->height});
+    if (share) out.push_back({*share, mark.label});
+  }
+  return out;
 }
 
 void ThermalTile::restyle() {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include "common/robot_model/robot_geometry.h"
 #include "gui/models/station_models.h"
+#include "gui/panels/fire/aim_marks.h"
 #include "gui/panels/fire/heat_model.h"
 #include "gui/panels/fire/thermal_view.h"
 #include "gui/widgets/text.h"
@@ -15,7 +17,9 @@ namespace kiln::gui {
 class ThermalTile : public Tile {
   Q_OBJECT
  public:
-  ThermalTile(const Ui& ui, StationModels& models, QWidget* parent = nullptr);
+  /// @param geometry  tells where the camera looks; without it the jet's aim is not marked.
+  ThermalTile(const Ui& ui, StationModels& models,
+              const std::optional<RobotGeometry>& geometry = {}, QWidget* parent = nullptr);
   [[nodiscard]] ThermalView& view() { return *view_; }
   /// Why the picture must not be read, in one sentence; empty if it may.
   [[nodiscard]] QString refusal() const;
@@ -27,6 +31,7 @@ class ThermalTile : public Tile {
   void refresh();
   void refreshAge();
   void describe();
+  [[nodiscard]] std::vector<PlacedMark> placedMarks() const;
   void restyle();
   void nameScale();
   QWidget* makeColumn();
@@ -34,6 +39,8 @@ class ThermalTile : public Tile {
   Ui ui_;
   StationModels& models_;
   HeatModel heat_;
+  AimMarks aim_;
+  std::optional<RobotGeometry> geometry_;
   ThermalView* view_;
   Label *peak_caption_, *peak_, *box_, *rejected_, *reading_;
   QToolButton* scale_;

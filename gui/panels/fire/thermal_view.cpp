@@ -69,6 +69,11 @@ void ThermalView::show(const ThermalImagePtr& image,
   update();
 }
 
+void ThermalView::setMarks(std::vector<PlacedMark> marks) {
+  marks_ = std::move(marks);
+  update();
+}
+
 void ThermalView::setAutomaticScale(bool automatic) {
   automatic_ = automatic;
   recolor();
@@ -123,6 +128,7 @@ void ThermalView::paintEvent(QPaintEvent*) {
     painter.drawImage(picture, colors_);
     painter.setFont(ui_.theme.font(TextRole::Small));
     paintBlobs(painter, picture);
+    paintPictureMarks(painter, marks_, picture, ui_.theme);
     if (hasTemperatures(*image_)) paintBar(painter, picture);
   }
   if (!notice_.isEmpty()) paintNotice(painter, picture);

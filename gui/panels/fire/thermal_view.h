@@ -7,6 +7,7 @@
 
 #include "common/wire/fire/fire_model.h"
 #include "gui/panels/fire/thermal_scale.h"
+#include "gui/views/camera/picture_marks.h"
 #include "gui/widgets/theme.h"
 
 namespace kiln::gui {
@@ -22,6 +23,9 @@ class ThermalView : public QWidget {
   /// @param notice  one sentence why nothing may be read from the picture, else empty.
   void show(const ThermalImagePtr& image, const std::shared_ptr<const HeatDetections>& heat,
             const QString& notice);
+  /// Points to mark in the picture, as shares of it.
+  void setMarks(std::vector<PlacedMark> marks);
+  [[nodiscard]] const std::vector<PlacedMark>& marks() const { return marks_; }
   void setAutomaticScale(bool automatic);
   /// The scale in bare numbers, for the picture's sake.
   void setCompact(bool compact);
@@ -59,6 +63,7 @@ class ThermalView : public QWidget {
   std::shared_ptr<const HeatDetections> heat_;
   QString notice_;
   QImage colors_;
+  std::vector<PlacedMark> marks_;
   std::optional<QPoint> mouse_;
 };
 

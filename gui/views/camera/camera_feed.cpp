@@ -45,6 +45,8 @@ bool CameraFeed::crossedOut() const {
 }
 
 QString CameraFeed::headline() const {
+  const bool old = state_ == CameraState::Stalled || state_ == CameraState::Stale;
+  if (recorded_ && old) return tr("recorded %1 s before this moment").arg(age_s_, 0, 'f', 1);
   switch (state_) {
     case CameraState::NoPicture:
       return tr("no picture yet");
@@ -63,6 +65,7 @@ QString CameraFeed::headline() const {
 }
 
 QString CameraFeed::advice() const {
+  if (recorded_) return {};
   switch (state_) {
     case CameraState::Stalled:
       return tr("check cable and link; other views may be live");

@@ -36,6 +36,8 @@ class CameraFeed {
   /// 0: none yet.
   void judge(Stamp now, double age_s);
 
+  /// Of a recording: an old picture then says nothing of camera or link.
+  void setRecorded(bool recorded) { recorded_ = recorded; }
   [[nodiscard]] CameraState state() const { return state_; }
   /// Nothing may be steered by it.
   [[nodiscard]] bool crossedOut() const;
@@ -50,7 +52,7 @@ class CameraFeed {
   RgbImagePtr keep_alive_;
   QImage picture_;
   CameraState state_ = CameraState::NoPicture;
-  bool any_ = false, broken_ = false;
+  bool any_ = false, broken_ = false, recorded_ = false;
   Stamp last_message_;
   double age_s_ = -1.0;
 };

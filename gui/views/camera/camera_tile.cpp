@@ -5,7 +5,9 @@
 #include <QPainter>
 #include <QToolButton>
 #include <algorithm>
+#include <utility>
 
+#include "common/core/units.h"
 #include "common/geom/frames.h"
 #include "gui/widgets/fitted_text.h"
 #include "gui/widgets/hatch.h"
@@ -14,7 +16,8 @@
 namespace kiln::gui {
 namespace {
 constexpr int kNoteMargin_px = 14;
-}
+constexpr double kHfov_rad = 78.0 * kDeg;  // of both cameras, as the robot's calibration has it
+}  // namespace
 
 CameraTile::CameraTile(const Ui& ui, StationModels& models, QWidget* parent)
     : Tile(ui, tr("Camera"), parent),
@@ -76,8 +79,10 @@ void CameraTile::showCamera(Camera camera) {
 }
 
 void CameraTile::refresh() {
-  for (const Camera camera : {Operator, Head})
+  for (const Camera camera : {Operator, Head}) {
+    feeds_[camera].setRecorded(models_.link.readOnly());
     feeds_[camera].judge(ui_.clock.now(), model(camera).ageS());
+  }
   const CameraFeed& feed = feeds_[shown_];
   const CameraModel& source = model(shown_);
   // The picture crosses itself out with its own words, so the tile's general hatch stays off.
@@ -86,7 +91,33 @@ void CameraTile::refresh() {
                                                                  : AgeLevel::Amber);
   const QString rate = source.hasData() ? tr("%1 Hz").arg(source.rateHz(), 0, 'f', 1) : QString();
   setInfo(feed.state() == CameraState::Late ? tr("%1 · late").arg(rate) : rate);
-  picture_->show(feed);
+  picture_->show(feed, placedMarks());
+}
+
+void CameraTile::setMarks(PictureMarks* marks, const RobotGeometry& geometry) {
+  delete std::exchange(marks_, marks);
+  geometry_ = geometry;
+  if (marks_) {
+    marks_->setParent(this);
+    connect(marks_, &PictureMarks::changed, this, &CameraTile::refresh);
+  }
+  refresh();
+}
+
+std::vector<PlacedMark> CameraTile::placedMarks() const {
+  const RobotStatus* status = models_.status.status();
+  const QSize size = feeds_[shown_].picture().size();
+  if (!marks_ || !status || feeds_[shown_].crossedOut()) return {};
+  const Eigen::Isometry3d X_base_camera =
+      shown_ == Head ? geometry_.X_base_flange(status->arm.q) * geometry_.X_flange_rgb.pose()
+                     : geometry_.X_base_operatorcamera.pose();
+  std::vector<PlacedMark> out;
+  for (const PictureMark& mark : marks_->marks()) {
+    const auto share =
+        placeInPicture(mark.p_map, toIsometry(status->X_map_base) * X_base_camera, kHfov_rad, size);
+    if (share) out.push_back({*share, mark.label});
+  }
+  return out;
 }
 
 void CameraTile::restyle() {
@@ -106,8 +137,9 @@ CameraPicture::CameraPicture(const Ui& ui, QWidget* parent) : QWidget(parent), u
   connect(&ui_.theme, &Theme::changed, this, qOverload<>(&QWidget::update));
 }
 
-void CameraPicture::show(const CameraFeed& feed) {
+void CameraPicture::show(const CameraFeed& feed, std::vector<PlacedMark> marks) {
   feed_ = &feed;
+  marks_ = std::move(marks);
   update();
 }
 
@@ -125,6 +157,7 @@ void CameraPicture::paintEvent(QPaintEvent*) {
     painter.setRenderHint(QPainter::SmoothPixmapTransform);
     painter.drawImage(area, picture);
   }
+  paintPictureMarks(painter, marks_, area, ui_.theme);
   if (feed_->crossedOut()) paintCrossedOut(painter, area);
   if (feed_->crossedOut() || feed_->state() == CameraState::NoPicture)
     paintNote(painter, rect(), feed_->headline(), feed_->advice());

@@ -1,7 +1,9 @@
 #pragma once
 
+#include "common/robot_model/robot_geometry.h"
 #include "gui/models/station_models.h"
 #include "gui/views/camera/camera_feed.h"
+#include "gui/views/camera/picture_marks.h"
 #include "gui/widgets/tile.h"
 
 class QButtonGroup;
@@ -20,12 +22,16 @@ class CameraTile : public Tile {
   [[nodiscard]] const CameraFeed& feed(Camera camera) const { return feeds_[camera]; }
   [[nodiscard]] Camera shown() const { return shown_; }
   void showCamera(Camera camera);
+  /// Marks points of the map in the pictures, by the cameras' mountings; the tile owns `marks`.
+  /// nullptr: none any more.
+  void setMarks(PictureMarks* marks, const RobotGeometry& geometry = {});
 
  private:
   void accept(const RgbImagePtr& image);
   void refresh();
   void restyle();
   [[nodiscard]] const CameraModel& model(Camera camera) const;
+  [[nodiscard]] std::vector<PlacedMark> placedMarks() const;
   QWidget* makeChoice();
   Ui ui_;
   StationModels& models_;
@@ -33,6 +39,8 @@ class CameraTile : public Tile {
   Camera shown_ = Operator;
   CameraPicture* picture_;
   QButtonGroup* choice_;
+  PictureMarks* marks_ = nullptr;
+  RobotGeometry geometry_;
 };
 
 /// The picture alone: keeps its aspect; crossed out with the reason when nothing may be steered by
@@ -42,7 +50,9 @@ class CameraPicture : public QWidget {
  public:
   explicit CameraPicture(const Ui& ui, QWidget* parent = nullptr);
   /// @param feed  outlives this widget, or the next call.
-  void show(const CameraFeed& feed);
+  /// @param marks  not drawn in a picture that is crossed out.
+  void show(const CameraFeed& feed, std::vector<PlacedMark> marks = {});
+  [[nodiscard]] const std::vector<PlacedMark>& marks() const { return marks_; }
   [[nodiscard]] QSize minimumSizeHint() const override { return {180, 100}; }
 
  protected:
@@ -54,6 +64,7 @@ class CameraPicture : public QWidget {
                  const QString& advice) const;
   Ui ui_;
   const CameraFeed* feed_ = nullptr;
+  std::vector<PlacedMark> marks_;
 };
 
 }  // namespace kiln::gui

@@ -3,12 +3,14 @@
 #include <QButtonGroup>
 #include <QEvent>
 #include <QHBoxLayout>
+#include <QStringList>
 #include <QToolButton>
 #include <algorithm>
 #include <utility>
 
 #include "gui/views/scene3d/layer_panel.h"
 #include "gui/views/scene3d/localization_chip.h"
+#include "gui/views/scene3d/pose_chip.h"
 #include "gui/views/scene3d/pose_panel.h"
 #include "gui/widgets/text.h"
 
@@ -36,6 +38,7 @@ SceneTile::SceneTile(const Ui& ui, StationModels& models, RobotGeometry geometry
       camera_buttons_(new QButtonGroup(this)),
       placer_(models),
       chip_(new LocalizationChip(ui, models.localization, canvas_)),
+      figures_(new PoseChip(ui, models, canvas_)),
       pose_panel_(new PosePanel(ui, placer_, canvas_)) {
   setContent(canvas_, true);
   canvas_->installEventFilter(this);
@@ -58,6 +61,7 @@ SceneTile::SceneTile(const Ui& ui, StationModels& models, RobotGeometry geometry
   connect(&models_.status, &Model::changed, this, &SceneTile::takeStatus);
   connect(&models_.cloud, &Model::changed, this, [this] {
     state_.setCloud(models_.cloud.cloud());
+    figures_->show(nearestObstacle(state_.snapshot(), state_.geometry()));
     refresh();
   });
   connect(&models_.scene, &Model::changed, this, [this] {
@@ -78,6 +82,7 @@ SceneTile::SceneTile(const Ui& ui, StationModels& models, RobotGeometry geometry
   connect(&models_, &StationModels::aged, this, [this] {
     takeAges();
     chip_->refresh();
+    figures_->update();
     refreshPoseButton();
     refresh();
   });
@@ -200,6 +205,8 @@ void SceneTile::arrange() {
   }
   chip_->move(low ? kPanelOffset_px : area.width() - chip_->width() - kPanelOffset_px,
               kPanelOffset_px);
+  figures_->setVisible(pose_panel_->isHidden());  // who places the robot does not drive it
+  figures_->move(kPanelOffset_px, area.height() - figures_->height() - kPanelOffset_px);
   pose_panel_->move(std::max(kPanelOffset_px, (area.width() - pose_panel_->width()) / 2),
                     area.height() - pose_panel_->height() - kPanelOffset_px);
 }
@@ -211,6 +218,7 @@ bool SceneTile::eventFilter(QObject* watched, QEvent* event) {
 
 void SceneTile::takeStatus() {
   if (const RobotStatus* status = models_.status.status()) state_.setStatus(*status);
+  figures_->update();
   refresh();
 }
 
@@ -235,15 +243,27 @@ void SceneTile::refresh() {
   const SceneSnapshot& snapshot = state_.snapshot();
   canvas_->show(snapshot);
   layers_->show(snapshot);
-  const QString refusal = QString::fromStdString(state_.cloudRefusal());
+  setInfo(headerText());
+}
+
+QString SceneTile::headerText() const {
+  if (!state_.cloudRefusal().empty()) return QString::fromStdString(state_.cloudRefusal());
+  QStringList parts;
+  if (layers_->isHidden()) parts << tr("F1 layers");
+  if (!canvas_->usesOpenGl()) parts << tr("top view, no OpenGL");
+  const PointCloudPtr& cloud = state_.snapshot().cloud;
+  parts << pointsText(cloud);
+  // Last, for a narrow header leaves out the first parts.
   const RobotStatus* status = models_.status.status();
-  const bool recorded = status != nullptr && status->environment == Environment::Replay;
-  QString info = (!canvas_->usesOpenGl() ? tr("top view, no OpenGL · %1")
-                  : recorded             ? tr("recorded · %1")
-                                         : tr("live · %1"))
-                     .arg(pointsText(snapshot.cloud));
-  if (layers_->isHidden()) info = tr("F1 layers · ") + info;
-  setInfo(refusal.isEmpty() ? info : refusal);
+  if (!status)
+    parts << tr("no data");
+  else if (models_.status.ageLevel() != AgeLevel::Fresh)
+    parts << tr("last heard %1 ago").arg(ageText(models_.status.ageS()));
+  else if (models_.cloud.hasData() && models_.cloud.ageLevel() != AgeLevel::Fresh)
+    parts << tr("cloud %1 old").arg(ageText(models_.cloud.ageS()));
+  else
+    parts << (status->environment == Environment::Replay ? tr("recorded") : tr("live"));
+  return parts.join(QStringLiteral(" · "));
 }
 
 QWidget* SceneTile::makeCameraButtons() {

@@ -14,6 +14,7 @@ namespace kiln::gui {
 
 class LayerPanel;
 class LocalizationChip;
+class PoseChip;
 class PosePanel;
 
 /// The 3D scene as a tile, fed by the models.
@@ -34,11 +35,12 @@ class SceneTile : public Tile {
   [[nodiscard]] PosePlacer& posePlacer() { return placer_; }
   [[nodiscard]] PosePanel* posePanel() const { return pose_panel_; }
   [[nodiscard]] LocalizationChip* localizationChip() const { return chip_; }
+  [[nodiscard]] PoseChip* poseChip() const { return figures_; }
+  /// What is drawn and how old it is, "15 k points · live"; "live" only if it is.
+  [[nodiscard]] QString headerText() const;
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
-
- protected:
   void resizeEvent(QResizeEvent* event) override;
 
  private:
@@ -64,6 +66,7 @@ class SceneTile : public Tile {
   QButtonGroup* camera_buttons_;
   PosePlacer placer_;
   LocalizationChip* chip_;
+  PoseChip* figures_;
   PosePanel* pose_panel_;
   std::vector<SceneCard*> cards_;
   QToolButton* pose_button_ = nullptr;

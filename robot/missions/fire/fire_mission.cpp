@@ -250,9 +250,10 @@ FireSite FireMission::site(Stamp now) const {
   site.stamp = now;
   site.place_checks = placeChecks();
   const FirePlace* current = c.belief.currentPlace();
+  site.footprint_m = {c.devices.robot.length_m, c.devices.robot.width_m};
   for (const FirePlace& place : c.belief.places) {
-    site.places.push_back(
-        {place.name, place.p_plate_map, place.facing_rad, place.visited, place.nudge});
+    site.places.push_back({place.name, place.p_plate_map, place.facing_rad, place.visited,
+                           place.nudge, workPose(place.name)});
     std::optional<FireEstimate> estimate = place.estimate;
     if (&place == current && c.heat.listening()) estimate = c.estimate();
     if (estimate) site.fires.push_back(*estimate);

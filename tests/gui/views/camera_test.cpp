@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 
 #include "gui/views/camera/camera_feed.h"
+#include "gui/views/camera/camera_tile.h"
+#include "tests/gui/views/sample_world.h"
+#include "tests/gui/views/station_fixture.h"
 
 namespace kiln::gui {
 namespace {
@@ -65,6 +68,44 @@ TEST(CameraFeed, TheThreeFaultsHaveThreeTexts) {
   EXPECT_NE(stalled.headline(), stale.headline());
   EXPECT_NE(stale.headline(), broken.headline());
   EXPECT_NE(stalled.advice(), broken.advice());
+}
+
+TEST(CameraFeed, AnOldPictureOfARecordingAccusesNobody) {
+  CameraFeed feed;
+  feed.setRecorded(true);
+  feed.accept(picture(10, 1), at(10));
+  feed.judge(at(10.1), 94.5);
+  EXPECT_TRUE(feed.crossedOut());
+  EXPECT_EQ(feed.headline(), "recorded 94.5 s before this moment");
+  EXPECT_TRUE(feed.advice().isEmpty());
+}
+
+class OneMark : public PictureMarks {
+ public:
+  [[nodiscard]] std::vector<PictureMark> marks() const override { return {{p_map, "here"}}; }
+  Eigen::Vector3d p_map = Eigen::Vector3d::Zero();
+};
+
+TEST_F(StationTest, TheOperatorsPictureMarksAPointOfTheMap) {
+  const SampleWorld world;
+  CameraTile tile(ui, models);
+  status.X_map_base = {1.0, 2.0, 0.5};
+  feed();
+  auto* mark = new OneMark;
+  mark->p_map = toIsometry(status.X_map_base) * world.robot().X_base_operatorcamera.pose() *
+                Eigen::Vector3d(0, 0, 3);
+  tile.setMarks(mark, world.robot());
+  const auto* shown = tile.findChild<CameraPicture*>();
+  EXPECT_TRUE(shown->marks().empty()) << "no picture yet";
+  emit link.image(world.picture(link.time.now(), 1));
+  feed();
+  ASSERT_EQ(shown->marks().size(), 1U);
+  EXPECT_NEAR(shown->marks()[0].share.x(), 0.5, 1e-6);
+  EXPECT_NEAR(shown->marks()[0].share.y(), 0.5, 1e-6);
+  link.time.advanceBy(std::chrono::seconds(3));
+  emit models.aged();
+  EXPECT_TRUE(shown->marks().empty()) << "crossed out";
+  tile.setMarks(nullptr);
 }
 
 }  // namespace

@@ -116,9 +116,15 @@ Scene SampleWorld::scene(Stamp stamp, const RobotStatus& status, bool spraying) 
   s.arena = boxes_;
   FireSite site;
   site.stamp = stamp;
+  site.footprint_m = {robot_.length_m, robot_.width_m};
   for (const FirePlaceConfig& place : site_.places) {
     const auto& p = place.plate_xyz_m;
-    site.places.push_back({place.name, {p[0], p[1], p[2]}, place.facing_deg * kDeg, false});
+    site.places.push_back({place.name,
+                           {p[0], p[1], p[2]},
+                           place.facing_deg * kDeg,
+                           false,
+                           {},
+                           place.work_pose.pose()});
   }
   for (const GroundPoseConfig& pose : arena_.entry_path)
     s.planned.waypoints_map.push_back(pose.pose());

@@ -1,12 +1,16 @@
 #include <QImage>
 #include <QPainter>
 
+#include "common/core/units.h"
+#include "gui/views/scene3d/clearance.h"
 #include "gui/views/scene3d/orbit_camera.h"
+#include "gui/views/scene3d/pose_chip.h"
 #include "gui/views/scene3d/robot_shape.h"
 #include "gui/views/scene3d/scene_colors.h"
 #include "gui/views/scene3d/scene_labels.h"
 #include "gui/views/scene3d/scene_overlay.h"
 #include "gui/views/scene3d/scene_state.h"
+#include "gui/views/scene3d/scene_tile.h"
 #include "gui/views/scene3d/top_view.h"
 #include "tests/gui/views/sample_world.h"
 #include "tests/gui/views/station_fixture.h"
@@ -357,6 +361,76 @@ TEST_F(StationTest, AClickNamesTheLabelledItemNearestToIt) {
   EXPECT_EQ(itemAt(snapshot, camera, size, pixel(left) + QPointF(5, 5))->id, "left");
   EXPECT_EQ(itemAt(snapshot, camera, size, pixel(right))->id, "right");
   EXPECT_EQ(itemAt(snapshot, camera, size, pixel(nameless)), nullptr);
+}
+
+TEST_F(StationTest, TheScenesHeaderSaysLiveOnlyWhileItIs) {
+  const SceneTile tile(ui, models, RobotGeometry{}, false);
+  EXPECT_TRUE(tile.headerText().endsWith("live")) << tile.headerText().toStdString();
+  link.time.advanceBy(std::chrono::milliseconds(900));
+  feed(false);  // the LiDAR is silent, the robot is not
+  EXPECT_TRUE(tile.headerText().endsWith("cloud 0.90 s old")) << tile.headerText().toStdString();
+  link.time.advanceBy(std::chrono::seconds(9));
+  emit models.aged();
+  EXPECT_TRUE(tile.headerText().endsWith("last heard 9.0 s ago"))
+      << tile.headerText().toStdString();
+  EXPECT_FALSE(tile.headerText().contains("live"));
+}
+
+/// A wall of points across the way, and what must not count.
+SceneSnapshot wallAhead(double x_m) {
+  SceneSnapshot snapshot;
+  snapshot.robot_known = true;
+  snapshot.X_map_base = {2.0, 1.0, M_PI / 2};  // looks along Y of the map
+  auto cloud = std::make_shared<PointCloud>();
+  cloud->frame = "map";
+  for (int i = 0; i < 9; ++i)
+    cloud->push(float(2.0 + 0.05 * (i - 4)), float(1.0 + x_m), 0.6F, 0, 0, 0);
+  cloud->push(2.0F, 2.0F, 0.05F, 0, 0, 0);  // the ground, 1 m ahead
+  cloud->push(2.1F, 1.2F, 1.0F, 0, 0, 0);   // its own arm
+  cloud->push(2.0F, -0.2F, 0.5F, 0, 0, 0);  // one stray point behind
+  cloud->push(2.0F, 2.2F, 2.4F, 0, 0, 0);   // a lintel
+  cloud->push(NAN, NAN, NAN, 0, 0, 0);
+  snapshot.cloud = cloud;
+  return snapshot;
+}
+
+TEST(Clearance, IsFromTheFootprintsEdgeToWhatStandsInTheWay) {
+  RobotGeometry geometry;
+  geometry.length_m = 1.9;
+  geometry.width_m = 1.4;
+  const auto found = nearestObstacle(wallAhead(1.75), geometry);
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->distance_m, 0.80, 1e-3);  // 1.75 m less half of 1.9 m
+  EXPECT_STREQ(sideWord(found->bearing_rad), "ahead");
+  SceneSnapshot nothing = wallAhead(1.75);
+  nothing.cloud.reset();
+  EXPECT_FALSE(nearestObstacle(nothing, geometry));
+}
+
+TEST(Clearance, HasAWordForEachSide) {
+  EXPECT_STREQ(sideWord(0.8), "ahead left");
+  EXPECT_STREQ(sideWord(-1.6), "right");
+  EXPECT_STREQ(sideWord(M_PI), "behind");
+  EXPECT_STREQ(sideWord(-M_PI), "behind");
+  EXPECT_STREQ(sideWord(-2.4), "behind right");
+}
+
+TEST_F(StationTest, TheDriversFiguresAreThoseOfTheRobotAndGoWithIt) {
+  status.X_map_base = {1.234, -0.4, 12.3 * kDeg};
+  status.twist = {0.3, 0.4, 0.0};
+  feed();
+  SceneTile tile(ui, models, RobotGeometry{}, false);
+  const PoseChip& chip = *tile.poseChip();
+  EXPECT_EQ(chip.pose(), "x +1.23 m  y −0.40 m  yaw +12°");
+  EXPECT_EQ(chip.drive(), "0.50 m/s · nearest –") << "one point is no obstacle";
+  const QSize before = chip.size();
+  status.X_map_base = {-12.345, -0.001, -179.6 * kDeg};
+  feed();
+  EXPECT_EQ(chip.pose(), "x −12.35 m  y +0.00 m  yaw −180°");
+  EXPECT_EQ(chip.size(), before);
+  link.time.advanceBy(std::chrono::seconds(2));
+  EXPECT_EQ(chip.pose(), "x – m  y – m  yaw –°") << "nobody knows";
+  EXPECT_EQ(chip.drive(), "– m/s · nearest –");
 }
 
 }  // namespace

@@ -1,4 +1,8 @@
+#include "common/wire/fire/codec/fire_codec.h"
+#include "gui/panels/fire/aim_marks.h"
 #include "gui/panels/fire/thermal_tile.h"
+#include "gui/panels/fire/work_pose.h"
+#include "tests/gui/views/sample_world.h"
 #include "tests/gui/views/station_fixture.h"
 
 namespace kiln::gui {
@@ -100,6 +104,85 @@ TEST_F(StationTest, ACutOffPictureIsRefused) {
   models.flush();
   EXPECT_TRUE(tile.refusal().contains("1000 of 19200"));
   tile.view().setAutomaticScale(true);
+}
+
+FireSite twoPlaces() {
+  FireSite site;
+  site.places = {{"place 1", {5, 0, 1}, M_PI, false, {}, Pose2{3.0, 0.0, 0.0}},
+                 {"place 2", {5, 4, 1}, M_PI, false, {}, Pose2{3.0, 4.0, 0.0}}};
+  return site;
+}
+
+TEST(WorkPose, TellsTheWayToTheNearestInTheRobotsOwnWords) {
+  FireSite site = twoPlaces();
+  const Pose2 looks_left{3.1, 0.42, M_PI / 2};
+  const auto way = nearestWorkPose(site, looks_left);
+  ASSERT_TRUE(way);
+  EXPECT_EQ(workText(*way), "place 1: 0.42 m back, 0.10 m left, turn 90° right");
+  EXPECT_EQ(nearestWorkPose(site, {3.0, 3.0, 0.0})->place, "place 2");
+  site.places[1].visited = true;
+  EXPECT_EQ(nearestWorkPose(site, {3.0, 3.0, 0.0})->place, "place 1") << "the one still to do";
+  EXPECT_EQ(workText(*nearestWorkPose(site, {3.05, -0.05, 0.03})), "place 1: at its work pose ✓");
+  EXPECT_FALSE(nearestWorkPose(site, {3.0, 0.0, 0.1})->reached()) << "more than 5 degrees";
+  site.places.clear();
+  EXPECT_FALSE(nearestWorkPose(site, {}));
+}
+
+TEST_F(StationTest, TheWayIsThatOfNowAndUnknownWithoutALink) {
+  WorkPoseLine line(ui, models);
+  Scene scene;
+  scene.detail = wire::encodeDetail(twoPlaces());
+  emit link.scene(std::make_shared<Scene>(scene));
+  status.X_map_base = {2.0, 0.0, 0.0};
+  feed();
+  EXPECT_EQ(line.text(), "place 1: 1.00 m ahead, 0.00 m left, turn 0° left");
+  status.X_map_base = {2.5, 0.0, 0.0};
+  feed();
+  EXPECT_TRUE(line.text().startsWith("place 1: 0.50 m ahead")) << line.text().toStdString();
+  link.time.advanceBy(std::chrono::seconds(2));
+  EXPECT_EQ(line.text(), "way to the work pose: not known");
+}
+
+TEST(PictureMarks, StandWhereTheCameraSeesThem) {
+  const Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
+  const auto middle = placeInPicture({0, 0, 2}, X, 1.0, {160, 120});
+  ASSERT_TRUE(middle);
+  EXPECT_NEAR(middle->x(), 0.5, 1e-9);
+  EXPECT_NEAR(middle->y(), 0.5, 1e-9);
+  const auto edge = placeInPicture({std::tan(0.499), 0, 1}, X, 1.0, {160, 120});
+  ASSERT_TRUE(edge);
+  EXPECT_GT(edge->x(), 0.99);
+  EXPECT_FALSE(placeInPicture({std::tan(0.51), 0, 1}, X, 1.0, {160, 120})) << "beside the picture";
+  EXPECT_FALSE(placeInPicture({0, 0, -2}, X, 1.0, {160, 120})) << "behind the camera";
+}
+
+TEST(AimMarks, SayByHowMuchThePlateIsMissed) {
+  EXPECT_EQ(aimText({{}, "place 1", 0.02, -0.03}), "place 1: on the plate");
+  EXPECT_EQ(aimText({{}, "place 1", -0.12, 0.05}), "place 1: 12 cm right, 5.0 cm high");
+  EXPECT_EQ(aimText({{}, "", 0.0, 0.0}), "the jet ends here");
+}
+
+TEST_F(StationTest, TheThermalPictureMarksWhereTheJetHits) {
+  const SampleWorld world;
+  ThermalTile tile(ui, models, world.robot());
+  status.arm.q = RobotGeometry::radians(world.robot().q_drive_deg);
+  status.X_map_base = {1.0, 2.0, 0.5};
+  FireSite site;
+  const Eigen::Isometry3d X_map_camera = toIsometry(status.X_map_base) *
+                                         world.robot().X_base_flange(status.arm.q) *
+                                         world.robot().X_flange_thermal.pose();
+  site.jet_map = {X_map_camera.translation(), X_map_camera * Eigen::Vector3d(0, 0, 1.5)};
+  Scene scene;
+  scene.detail = wire::encodeDetail(site);
+  emit link.scene(std::make_shared<Scene>(scene));
+  emit link.thermal(ramp(link.time.now(), 1));
+  feed();
+  ASSERT_EQ(tile.view().marks().size(), 1U);
+  EXPECT_NEAR(tile.view().marks()[0].share.x(), 0.5, 1e-6);
+  EXPECT_EQ(tile.view().marks()[0].label, "the jet ends here");
+  link.time.advanceBy(std::chrono::seconds(3));
+  emit models.aged();
+  EXPECT_TRUE(tile.view().marks().empty()) << "an old picture and an old aim do not fit";
 }
 
 }  // namespace

@@ -136,10 +136,13 @@ MissionDetail encodeDetail(const FireSite& site) {
     row.set_yaw_rad(place.yaw_rad);
     row.set_visited(place.visited);
     toProto(place.nudge, *row.mutable_nudge());
+    if (place.X_map_work) toProto(*place.X_map_work, *row.mutable_work());
   }
   for (const Eigen::Vector3d& point : site.jet_map) toProto(point, *out.add_jet());
   out.set_spraying(site.spraying);
   for (const PlaceCheck& check : site.place_checks) toProto(check, *out.add_place_checks());
+  out.set_footprint_length_m(site.footprint_m.x());
+  out.set_footprint_width_m(site.footprint_m.y());
   return {site.stamp, kiln::fire::kSiteSchema, serialise(out)};
 }
 
@@ -153,9 +156,12 @@ Result<FireSite> decodeFireSite(std::string_view bytes) {
     if (!fire) return tl::make_unexpected(fire.error());
     site.fires.push_back(std::move(*fire));
   }
-  for (const fire::v1::FirePlace& row : in->places())
+  for (const fire::v1::FirePlace& row : in->places()) {
     site.places.push_back(
         {row.name(), fromProto(row.p_map()), row.yaw_rad(), row.visited(), fromProto(row.nudge())});
+    if (row.has_work()) site.places.back().X_map_work = fromProto(row.work());
+  }
+  site.footprint_m = {in->footprint_length_m(), in->footprint_width_m()};
   for (const v1::Vec3& row : in->jet()) site.jet_map.push_back(fromProto(row));
   site.spraying = in->spraying();
   for (const fire::v1::PlaceCheck& row : in->place_checks()) {

@@ -25,6 +25,8 @@ FireSite site() {
   PlaceCheck unseen;
   unseen.place = "place 2";
   out.place_checks = {seen, unseen};
+  out.places[0].X_map_work = out.places[1].X_map_work = Pose2{7.5, 5.0, M_PI};
+  out.footprint_m = {1.9, 1.4};
   return out;
 }
 
@@ -36,6 +38,9 @@ TEST(FireWire, ASiteAndDetectionsComeBack) {
   EXPECT_EQ(wire::encodeDetail(*back).data, detail.data);
   EXPECT_TRUE(back->place_checks.at(0).X_map_sensed.has_value());
   EXPECT_FALSE(back->place_checks.at(1).X_map_sensed.has_value());
+  ASSERT_TRUE(back->places.at(1).X_map_work.has_value());
+  EXPECT_DOUBLE_EQ(back->places.at(1).X_map_work->x_m, 7.5);
+  EXPECT_EQ(back->footprint_m, site().footprint_m);
   HeatDetections heat;
   heat.image_seq = 7;
   heat.blobs.resize(2);
@@ -59,7 +64,7 @@ TEST(FireView, DrawsWhatTheOperatorNeeds) {
   EXPECT_EQ(fires[0].label, "place 2 · 0.86 m · ±2.0 cm") << "two standard deviations";
   EXPECT_EQ(fires[0].detail, "127 °C peak, 31 views");
   const auto jet = itemsOf(Shape::Polyline, ItemStyle::Active);
-  ASSERT_EQ(jet.size(), 1u) << "it sprays";
+  ASSERT_EQ(jet.size(), 4u) << "it sprays: the jet, and a cross where it hits";
   EXPECT_EQ(jet[0].points.size(), 2u);
   EXPECT_EQ(itemsOf(Shape::Polyline, ItemStyle::Suspected).size(), 1u) << "not visited: place 2";
   EXPECT_EQ(itemsOf(Shape::Box, ItemStyle::Caution).size(), 1u) << "sensed elsewhere: place 1";
@@ -67,6 +72,33 @@ TEST(FireView, DrawsWhatTheOperatorNeeds) {
   const auto names = itemsOf(Shape::Text, ItemStyle::Normal);
   ASSERT_EQ(names.size(), 1u) << "place 2 is named by its fire";
   EXPECT_EQ(names[0].label, "place 1 · visited");
+}
+
+TEST(FireView, OutlinesTheWorkPoseOfAPlaceThatWasNotVisited) {
+  const auto lines = itemsOf(SceneItem::Shape::Polyline, ItemStyle::Planned);
+  ASSERT_EQ(lines.size(), 2u) << "outline and arrow of place 2";
+  EXPECT_EQ(lines[0].id, "place 2");
+  ASSERT_EQ(lines[0].points.size(), 5u);
+  for (const Eigen::Vector3d& p : lines[0].points) {
+    EXPECT_NEAR(std::abs(p.x() - 7.5), 0.95, 1e-9);
+    EXPECT_NEAR(std::abs(p.y() - 5.0), 0.7, 1e-9);
+  }
+}
+
+TEST(FireView, TheAimIsWhereTheJetCrossesAPlate) {
+  FireSite there = site();  // place 2: plate at (6, 5, 1), looks along X
+  there.jet_map = {{7.0, 4.8, 1.3}, {6.5, 4.8, 1.2}, {5.5, 4.8, 1.0}};
+  const auto aim = fire::jetAim(there);
+  ASSERT_TRUE(aim);
+  EXPECT_EQ(aim->place, "place 2");
+  EXPECT_NEAR((aim->p_map - Eigen::Vector3d(6.0, 4.8, 1.1)).norm(), 0.0, 1e-9);
+  EXPECT_NEAR(aim->up_m, 0.1, 1e-9);
+  EXPECT_NEAR(aim->left_m, 0.2, 1e-9);  // who looks along -X has -Y at the left
+  there.jet_map = {{7.0, 8.0, 1.3}, {6.5, 8.0, 0.4}};
+  EXPECT_EQ(fire::jetAim(there)->place, "");
+  EXPECT_EQ(fire::jetAim(there)->p_map, there.jet_map.back());
+  there.jet_map.clear();
+  EXPECT_FALSE(fire::jetAim(there));
 }
 
 TEST(FireView, EveryItemAndFigureIsDeclared) {

@@ -53,6 +53,17 @@ struct Desk {
 const JogBase kForward{{0.3, 0.0, 0.0}};
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
+TEST(CommandGate, SaysInWordsWhatItDoesNotObey) {
+  Desk desk;
+  EXPECT_EQ(desk.decide(desk.make(SetSpeedScale{2.0})).reason, "speed scale is 2; allowed 0 to 1");
+  EXPECT_EQ(desk.decide(desk.make(HoldActuator{"pumps", 1.5})).reason,
+            "pumps is 1.5; allowed 0 to 1");
+  desk.situation.mode = Mode::Autonomous;
+  const std::string reason = desk.decide(desk.make(kForward)).reason;
+  EXPECT_NE(reason.find("; jog only in Teleop: change the mode first"), std::string::npos)
+      << reason;
+}
+
 TEST(CommandGate, LetsAFreshCommandOfTheHolderPass) {
   Desk desk;
   const auto decision = desk.decide(desk.make(kForward));
