@@ -89,7 +89,7 @@ TEST(RunReplay, AProtocol2RecordingIsHandedOverAsOfToday) {
   const auto info = wire::decodeMissionInfo(got[Topic::MissionInfo]);
   ASSERT_TRUE(info) << info.error();
   EXPECT_EQ(info->mission, "fire");
-  EXPECT_EQ(info->panels.size(), 3u);
+  EXPECT_EQ(info->panels.size(), 4u);
   const auto status = wire::decodeRobotStatus(got[Topic::RobotStatus]);
   ASSERT_TRUE(status) << status.error();
   const WaterLevels water = fire::waterLevels(status->figures);
