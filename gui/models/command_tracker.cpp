@@ -8,6 +8,7 @@ namespace {
 /// Nonces of commands that never left the station come from the top half of the range, out of the
 /// link's way.
 constexpr std::uint64_t kFirstLocalNonce = std::uint64_t{1} << 63;
+}  // namespace
 
 CommandPhase phaseOf(AckOutcome outcome) {
   switch (outcome) {
@@ -24,7 +25,6 @@ CommandPhase phaseOf(AckOutcome outcome) {
   }
   return CommandPhase::Unknown;
 }
-}  // namespace
 
 QString toText(CommandPhase phase) {
   switch (phase) {

@@ -18,6 +18,7 @@ enum class CommandPhase : std::uint8_t {
   Unknown,
   NotSent
 };
+[[nodiscard]] CommandPhase phaseOf(AckOutcome outcome);
 [[nodiscard]] QString toText(CommandPhase phase);  ///< "sent", "accepted", "refused", ...
 
 struct TrackedCommand {
