@@ -7,6 +7,8 @@ namespace {
 
 constexpr std::size_t kMaxPending = 256;
 
+}  // namespace
+
 CommandState stateOf(AckOutcome outcome) {
   switch (outcome) {
     case AckOutcome::Accepted:
@@ -22,8 +24,6 @@ CommandState stateOf(AckOutcome outcome) {
   }
   return CommandState::Unknown;
 }
-
-}  // namespace
 
 std::string_view toString(CommandState state) {
   switch (state) {

@@ -9,6 +9,8 @@
 
 namespace kiln {
 
+[[nodiscard]] CommandState stateOf(AckOutcome outcome);
+
 /// Follows each discrete command from sending to its end. No answer within the time-out makes it
 /// UNKNOWN, which is not a failure; a late answer still counts. Nothing is ever sent again from
 /// here. Thread-compatible.

@@ -113,6 +113,21 @@ Result<void> RunReplay::handOver(const RecordedMessage& message, const Sink& sin
   return {};
 }
 
+void RunReplay::scan(const std::vector<std::string>& names, const Sink& sink, const Other& other,
+                     const std::function<bool()>& goOn) const {
+  RecordCursor cursor = player_->reader().messages(names);
+  while (goOn()) {
+    const auto next = cursor.next();
+    if (!next) continue;  // a damaged chunk; the cursor stands behind it
+    if (!next->has_value()) return;
+    const RecordedMessage& message = **next;
+    if (!topicOf(message.topic))
+      other(message);
+    else if (const auto done = handOver(message, sink); !done)
+      continue;  // poll() tells of it
+  }
+}
+
 Result<std::size_t> RunReplay::poll(const Sink& sink, std::size_t limit) {
   std::optional<Error> bad;
   const auto polled = player_->poll(

@@ -41,6 +41,12 @@ class RunReplay {
   [[nodiscard]] RunInfo info() const { return runInfo(player_->reader()); }
   /// What the robot had not published yet at the place of the last seek.
   [[nodiscard]] std::vector<Topic> silentTopics() const;
+  using Other = std::function<void(const RecordedMessage&)>;
+  /// All messages on `names` from the beginning, unpaced, in the order of time: what the robot
+  /// published to `sink`, the rest to `other`. What is damaged is left out. Beside poll(), on any
+  /// thread; `goOn` is asked before each message.
+  void scan(const std::vector<std::string>& names, const Sink& sink, const Other& other,
+            const std::function<bool()>& goOn) const;
   /// As Player::poll. A picture that cannot be read is an Error too; polling again goes on.
   [[nodiscard]] Result<std::size_t> poll(const Sink& sink, std::size_t limit = 500);
 

@@ -8,6 +8,8 @@
 
 #include "gui/app/mission_panels.h"
 #include "gui/app/tile_layout.h"
+#include "gui/link/replay_link.h"
+#include "gui/views/alarm_strip/alarm_list.h"
 #include "gui/views/alarm_strip/alarm_strip.h"
 #include "gui/views/camera/camera_tile.h"
 #include "gui/views/fsm_graph/fsm_tile.h"
@@ -36,7 +38,8 @@ MainWindow::MainWindow(const Ui& ui, StationModels& models, const Options& optio
       top_bar_(new TopBar(ui, models)),
       fsm_(new FsmTile(ui, models, jump_)),
       state_(new StateCard(ui, models, jump_)),
-      alarms_(new AlarmStrip(ui, models)) {
+      alarms_(new AlarmStrip(ui, models)),
+      alarm_list_(new AlarmList(ui, models, this)) {
   setWindowTitle(QStringLiteral("Kiln station"));
   setMinimumSize(TileLayout::kLeast);
   auto* column = new QVBoxLayout(this);
@@ -51,8 +54,10 @@ MainWindow::MainWindow(const Ui& ui, StationModels& models, const Options& optio
   }
   column->addLayout(layout_->bottom());
   column->addWidget(alarms_);
-  new MissionPanels({ui_, models_, hold_, options.geometry},
-                    {image_row_, scene_, macros_, camera_}, *options.panels, this);
+  new MissionPanels({ui_, models_, hold_, options.geometry}, {image_row_, scene_, macros_, camera_},
+                    *options.panels, this);
+  connect(alarms_, &AlarmStrip::listRequested, alarm_list_, &AlarmList::toggle);
+  connect(alarm_list_, &AlarmList::resized, this, &MainWindow::placeAlarmList);
   connect(alarms_, &AlarmStrip::logRequested, this, [this] { showLog(!layout_->logShown()); });
   connect(&jump_, &ForcedJump::changed, this, [this] {
     if (jump_.phase() != ForcedJump::Phase::Idle) layout_->bringToFront(*fsm_);
@@ -88,6 +93,8 @@ void MainWindow::makeTiles(const Options& options) {
   auto* log = new Tile(ui_, tr("Event log"));
   log->setContent(new LogView(ui_, models_));
   connect(timeline_, &TimelineView::viewChanged, this, &MainWindow::refreshTimelineTile);
+  if (ReplayLink* replay = options.replay)
+    connect(timeline_, &TimelineView::seekWanted, replay, &ReplayLink::seek);
   refreshTimelineTile();
   layout_ = new TileLayout(
       ui_, {fsm_, scene_, images, timeline_tile_, log, state_, teleop, macros_}, *this);
@@ -96,9 +103,15 @@ void MainWindow::makeTiles(const Options& options) {
 void MainWindow::showLog(bool shown) { layout_->showLog(shown); }
 
 void MainWindow::refreshTimelineTile() {
-  timeline_tile_->setInfo(
-      (timeline_->following() ? tr("follows now") : tr("looking back, double-click to follow")) +
-      tr(" · last %1 s").arg(timeline_->spanS(), 0, 'f', 0));
+  const QString span = tr("%1 s").arg(timeline_->spanS(), 0, 'f', 0);
+  if (models_.link.readOnly())
+    timeline_tile_->setInfo(tr("click: go there · double-click: all · %1 shown").arg(span));
+  else
+    timeline_tile_->setInfo(tr("%1 · last %2")
+                                .arg(timeline_->following()
+                                         ? tr("follows now")
+                                         : tr("looking back, double-click to follow"),
+                                     span));
 }
 
 MainWindow::Frame MainWindow::frame() const {
@@ -132,7 +145,20 @@ void MainWindow::paintEvent(QPaintEvent*) {
                                            -kFrame_px / 2.0));
 }
 
-void MainWindow::resizeEvent(QResizeEvent*) { layout_->arrange(size()); }
+void MainWindow::resizeEvent(QResizeEvent*) {
+  layout_->arrange(size());
+  placeAlarmList();
+}
+
+/// Over the strip, and never over what is held: the right column stays free.
+void MainWindow::placeAlarmList() {
+  layout()->activate();
+  const int left = alarms_->x(), bottom = alarms_->y() - kGap_px;
+  const int width = state_->mapTo(this, QPoint()).x() - kGap_px - left;
+  const int height =
+      alarm_list_->heightFor(width, bottom - top_bar_->geometry().bottom() - kGap_px);
+  alarm_list_->setGeometry(left, bottom - height, width, height);
+}
 
 bool MainWindow::eventFilter(QObject* watched, QEvent* event) {
   // Keys are taken before any widget sees them: STOP must not depend on where the focus is.
@@ -187,11 +213,16 @@ bool MainWindow::handleKey(int key, bool typing) {
     jump_.cancel();
     scene_->posePlacer().cancel();
     for (SceneCard* card : scene_->cards()) card->cancel();
+    if (alarm_list_->isVisible()) alarm_list_->toggle();
     fsm_->endSearch();
     return true;
   }
   if (key == Qt::Key_F11) {
     setWindowState(windowState() ^ Qt::WindowFullScreen);
+    return true;
+  }
+  if (key == Qt::Key_F2) {
+    alarm_list_->toggle();
     return true;
   }
   if (key == Qt::Key_F1) {

@@ -14,6 +14,7 @@ class QHBoxLayout;
 namespace kiln::gui {
 
 class ActButton;
+class AlarmList;
 class AlarmStrip;
 class CameraTile;
 class FsmTile;
@@ -46,6 +47,7 @@ class MainWindow : public QWidget {
   [[nodiscard]] ForcedJump& forcedJump() { return jump_; }
   [[nodiscard]] ReplayBar* replayBar() const { return replay_bar_; }  ///< null without a replay
   [[nodiscard]] AlarmStrip* alarmStrip() const { return alarms_; }
+  [[nodiscard]] AlarmList* alarmList() const { return alarm_list_; }
   [[nodiscard]] ForcedJump& jump() { return jump_; }
   [[nodiscard]] MacrosTile* macrosTile() const { return macros_; }
   [[nodiscard]] HoldToRun& hold() { return hold_; }
@@ -63,6 +65,7 @@ class MainWindow : public QWidget {
   void makeTiles(const Options& options);
   void refreshFrame();
   void refreshTimelineTile();
+  void placeAlarmList();
   bool handleKey(int key, bool typing);
   bool handleReplayKey(const QKeyEvent& key);
   Ui ui_;
@@ -80,6 +83,7 @@ class MainWindow : public QWidget {
   TimelineView* timeline_ = nullptr;
   TileLayout* layout_ = nullptr;
   AlarmStrip* alarms_;
+  AlarmList* alarm_list_;
   ReplayBar* replay_bar_ = nullptr;
   Frame shown_frame_ = Frame::None;
 };

@@ -18,6 +18,8 @@
 
 namespace kiln::gui {
 
+class RunHistory;
+
 enum class LinkState : std::uint8_t {
   Connecting,  ///< never heard of the robot yet
   Up,
@@ -108,6 +110,8 @@ class Link : public QObject {
   /// After restarted(): nothing of these had been published at the new time. What is still shown of
   /// them is of another one.
   void absent(const std::vector<kiln::Topic>& topics);
+  /// Only of a recording: the whole run, as far as it has been read; again when more is.
+  void history(std::shared_ptr<const kiln::gui::RunHistory> history);
 };
 
 }  // namespace kiln::gui

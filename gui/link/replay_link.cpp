@@ -4,6 +4,9 @@
 #include <algorithm>
 
 #include "common/record/run_replay.h"
+#include "common/record/run_topics.h"
+#include "common/wire/command.h"
+#include "gui/link/run_history.h"
 #include "gui/link/topic_inboxes.h"
 
 namespace kiln::gui {
@@ -12,6 +15,7 @@ namespace {
 constexpr auto kPoll = std::chrono::milliseconds(10);
 constexpr int kReportPolls = 5;  // the slider moves at 20 Hz
 constexpr int kHealthPolls = 20;
+constexpr int kTellWhole = 4000;  // messages; the time line grows while a long run is read
 
 QString describe(const RunInfo& info) {
   QStringList words;
@@ -40,6 +44,8 @@ struct ReplayLink::Impl {
   void tellJump(const std::stop_token& stop);
   void poll();
   void report();
+  void readWhole(const std::stop_token& stop);
+  void tellWhole(const RunHistory& run);
   void want(const std::function<void(Wish&)>& change) {
     const std::lock_guard lock(mutex);
     change(wish);
@@ -57,6 +63,7 @@ struct ReplayLink::Impl {
   Wish wish;               // guarded by mutex
   bool jump_told = false;  // guarded by mutex
   std::jthread worker;
+  std::jthread reader;  ///< of the whole run, for the time line
 };
 
 Result<std::unique_ptr<ReplayLink>> ReplayLink::open(const std::string& path) {
@@ -103,12 +110,15 @@ void ReplayLink::open() {
   emit hello(reply);
   impl_->wish.playing = true;
   impl_->worker = std::jthread([this](std::stop_token stop) { impl_->run(std::move(stop)); });
+  impl_->reader = std::jthread([this](const std::stop_token& stop) { impl_->readWhole(stop); });
 }
 
 void ReplayLink::close() {
-  if (!impl_->worker.joinable()) return;
-  impl_->worker.request_stop();
-  impl_->worker.join();
+  for (std::jthread* thread : {&impl_->reader, &impl_->worker}) {
+    if (!thread->joinable()) continue;
+    thread->request_stop();
+    thread->join();
+  }
 }
 
 const Clock& ReplayLink::clock() const { return impl_->replay.player().clock(); }
@@ -204,11 +214,54 @@ void ReplayLink::Impl::poll() {
 
 void ReplayLink::Impl::report() {
   const Player& player = replay.player();
-  now.position = player.position();
+  now.position = player.ended() ? player.end() : player.position();
   now.playing = player.playing() && !player.ended();
   now.ended = player.ended();
   now.speed = player.speed();
   playback->put(now);
+}
+
+void ReplayLink::Impl::readWhole(const std::stop_token& stop) {
+  RunHistory whole;
+  TopicSubscribers take;
+  take.on<Topic::MissionInfo>() = [&](const auto& info, const Arrival&) {
+    whole.setMission(*info);
+  };
+  take.on<Topic::FsmStatus>() = [&](const auto& status, const Arrival&) { whole.add(*status); };
+  take.on<Topic::RobotStatus>() = [&](const auto& status, const Arrival&) {
+    whole.add(*status);
+    whole.addAlarms(status->stamp, status->alarms);
+  };
+  int taken = 0;
+  const auto published = [&](Topic topic, std::string_view payload, Stamp) {
+    // What cannot be decoded is told of when it is played.
+    (void)take.dispatch(topic, payload, {});
+    if (++taken % kTellWhole == 0) tellWhole(whole);
+  };
+  const auto other = [&](const RecordedMessage& message) {
+    if (message.topic == run::kCommands) {
+      const auto told = wire::decodeToRobot(message.data);
+      if (const auto* command = told ? std::get_if<Command>(&*told) : nullptr) whole.add(*command);
+    } else {
+      const auto told = wire::decodeToStation(message.data);
+      if (const auto* ack = told ? std::get_if<CommandAck>(&*told) : nullptr) whole.add(*ack);
+    }
+  };
+  std::vector<std::string> names{std::string(run::kCommands), std::string(run::kAcks)};
+  for (const Topic topic :
+       {Topic::MissionInfo, Topic::FsmInfo, Topic::RobotStatus, Topic::FsmStatus})
+    names.push_back(run::topicName(topic));
+  replay.scan(names, published, other, [&] { return !stop.stop_requested(); });
+  if (!stop.stop_requested()) tellWhole(whole);
+}
+
+void ReplayLink::Impl::tellWhole(const RunHistory& run) {
+  QMetaObject::invokeMethod(
+      link,
+      [owner = link, whole = std::make_shared<const RunHistory>(run)] {
+        emit owner->history(whole);
+      },
+      Qt::QueuedConnection);
 }
 
 }  // namespace kiln::gui

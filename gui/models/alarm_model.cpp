@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <tuple>
+#include <utility>
 
 namespace kiln::gui {
 
@@ -117,11 +118,13 @@ void AlarmModel::setOwn(const QString& id, AlarmLevel level, bool active, const 
     found->alarm.text = alarm.text;  // the same alarm goes on: keep its time and acknowledgement
     found->alarm.level = level;
   } else if (!active) {
-    found->alarm.active = false;
+    if (!std::exchange(found->alarm.active, false)) return;
+    emit ownChanged(found->alarm);
   } else {
     if (found != entries_.end()) entries_.erase(found);
     alarm.since = link().robotNow().value_or(stationNow());
     take(alarm, true);
+    emit ownChanged(alarm);
   }
   forgetFinished();
   touch();
@@ -133,7 +136,6 @@ void AlarmModel::take(const Alarm& alarm, bool own) {
   });
   if (found == entries_.end()) {
     entries_.insert(entries_.begin(), Entry{alarm, own});
-    emit raised(alarm);
     return;
   }
   const bool again = alarm.active && alarm.since > found->alarm.since;
@@ -142,7 +144,6 @@ void AlarmModel::take(const Alarm& alarm, bool own) {
   if (!again) return;
   entries_.erase(found);
   entries_.insert(entries_.begin(), Entry{alarm, own});
-  emit raised(alarm);
 }
 
 void AlarmModel::forgetFinished() {

@@ -42,7 +42,8 @@ class AlarmModel : public Model {
               const QString& action);
 
  signals:
-  void raised(const kiln::Alarm& alarm);  ///< a new one, at once
+  /// One of the station's own has begun or is over, at once.
+  void ownChanged(const kiln::Alarm& alarm);
 
  private:
   void take(const Alarm& alarm, bool own);

@@ -6,6 +6,8 @@ namespace kiln::gui {
 
 namespace {
 constexpr int kRecentStates = 3;
+/// States come ten times a second: later than this the robot is silent, and nobody knows.
+constexpr double kUnheard_s = 0.5;
 QString edgeKey(const QString& from, const QString& to) { return from + QLatin1Char('>') + to; }
 }  // namespace
 
@@ -23,6 +25,10 @@ FsmModel::FsmModel(Link& link, QObject* parent) : Model(link, AgeLimits{}, paren
     visits_.clear();
     paused_ = Duration::zero();
     recount();
+    touch();
+  });
+  connect(&link, &Link::history, this, [this](std::shared_ptr<const RunHistory> whole) {
+    whole_ = std::move(whole);
     touch();
   });
   connect(&link, &Link::fsmStatus, this,
@@ -60,10 +66,18 @@ double FsmModel::timeInStateS() const {
   // Once the mission has ended or the link is silent the clock of the state must not run on by
   // itself.
   if (status_->state.empty()) return 0.0;
-  const double since_s = toSeconds(status_->stamp - status_->entered - paused_);
+  const double since_s = toSeconds(status_->stamp - status_->entered - pausedInState());
   const bool running = status_->running && !status_->paused && !status_->terminal;
-  const double age_s = std::clamp(ageS(), 0.0, ageLimits().amber_s);
-  return std::max(0.0, since_s + (running ? age_s : 0.0));
+  return std::max(0.0, since_s + (running ? std::clamp(ageS(), 0.0, kUnheard_s) : 0.0));
+}
+
+/// After a jump in a recording this station has not seen what came before; the recording has.
+Duration FsmModel::pausedInState() const {
+  return whole_ ? whole_->paused(status_->entered, status_->stamp) : paused_;
+}
+
+Stamp FsmModel::knownUntil() const {
+  return stamp() + fromSeconds(std::clamp(ageS(), 0.0, kUnheard_s));
 }
 
 int FsmModel::timesTaken(const QString& from, const QString& to) const {
@@ -72,7 +86,7 @@ int FsmModel::timesTaken(const QString& from, const QString& to) const {
 
 int FsmModel::recency(const QString& name) const {
   int age = 0;
-  for (auto visit = visits_.rbegin(); visit != visits_.rend() && age <= kRecentStates;
+  for (auto visit = visits().rbegin(); visit != visits().rend() && age <= kRecentStates;
        ++visit, ++age) {
     if (visit->state == name) return age;
   }
@@ -88,45 +102,26 @@ void FsmModel::onStatus(std::shared_ptr<const FsmStatus> status) {
     paused_ += status->stamp - status_->stamp;
   }
   status_ = std::move(status);
-  for (const FsmHistoryEntry& entry : status_->history) merge(entry);
-  if (!status_->state.empty() && (visits_.empty() || visits_.back().step < status_->step)) {
-    merge(FsmHistoryEntry{
-        status_->step, status_->state, status_->entered, Stamp{}, TransitionCause::Normal, {}});
-  }
+  visits_.add(*status_);
   if (moved) recount();
   arrived(status_->stamp);
   if (moved) emit stateEntered(current());
 }
 
-void FsmModel::merge(const FsmHistoryEntry& entry) {
-  Visit visit{entry.step,  QString::fromStdString(entry.state), entry.entered, entry.left,
-              entry.cause, QString::fromStdString(entry.note)};
-  const auto at =
-      std::lower_bound(visits_.begin(), visits_.end(), visit.step,
-                       [](const Visit& v, std::uint64_t step) { return v.step < step; });
-  if (at != visits_.end() && at->step == visit.step) {
-    *at = std::move(visit);
-    return;
-  }
-  // A visit that was current when we last heard of it has ended by now.
-  if (at != visits_.begin() && (at - 1)->left == Stamp{}) (at - 1)->left = visit.entered;
-  visits_.insert(at, std::move(visit));
-  if (visits_.size() > kMaxVisits) visits_.erase(visits_.begin());
-}
-
 void FsmModel::recount() {
   records_.clear();
   taken_.clear();
-  for (std::size_t i = 0; i < visits_.size(); ++i) {
-    const Visit& visit = visits_[i];
+  const std::vector<Visit>& all = visits();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Visit& visit = all[i];
     StateRecord& record = records_[visit.state];
     ++record.visits;
     if (visit.left != Stamp{}) {
       record.last_s = toSeconds(visit.left - visit.entered);
       record.total_s += record.last_s;
     }
-    if (i > 0 && visits_[i - 1].step + 1 == visit.step)
-      ++taken_[edgeKey(visits_[i - 1].state, visit.state)];
+    if (i > 0 && all[i - 1].step + 1 == visit.step)
+      ++taken_[edgeKey(all[i - 1].state, visit.state)];
   }
 }
 

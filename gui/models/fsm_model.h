@@ -2,8 +2,11 @@
 
 #include <QHash>
 #include <QString>
+#include <memory>
 #include <vector>
 
+#include "gui/link/run_history.h"
+#include "gui/link/visit_log.h"
 #include "gui/models/model.h"
 
 namespace kiln::gui {
@@ -12,21 +15,11 @@ namespace kiln::gui {
 class FsmModel : public Model {
   Q_OBJECT
  public:
-  struct Visit {
-    std::uint64_t step = 0;
-    QString state;
-    Stamp entered;
-    Stamp left;  ///< == Stamp{} while current
-    TransitionCause cause = TransitionCause::Normal;
-    QString note;
-  };
   struct StateRecord {
     int visits = 0;
     double total_s = 0.0;  ///< of finished visits
     double last_s = 0.0;   ///< of the last finished visit
   };
-  static constexpr std::size_t kMaxVisits = 1000;
-
   explicit FsmModel(Link& link, QObject* parent = nullptr);
   [[nodiscard]] const FsmInfo* info() const { return info_.get(); }  ///< nullptr until received
   [[nodiscard]] const FsmStatus* status() const {
@@ -37,11 +30,13 @@ class FsmModel : public Model {
   [[nodiscard]] const FsmEdgeInfo* edge(const QString& from, const QString& to) const;
   [[nodiscard]] QString label(const QString& name) const;  ///< the name itself if unknown
   [[nodiscard]] QString current() const;
-  /// Seconds in the current state, as of now.
+  /// Seconds in the current state, as of knownUntil().
   [[nodiscard]] double timeInStateS() const;
+  /// Up to when it is known what the machine did: now, or shortly after it was heard last.
+  [[nodiscard]] Stamp knownUntil() const;
   /// Every visit since the station joined (and what the robot's history told of before), oldest
   /// first.
-  [[nodiscard]] const std::vector<Visit>& visits() const { return visits_; }
+  [[nodiscard]] const std::vector<Visit>& visits() const { return visits_.visits(); }
   [[nodiscard]] StateRecord record(const QString& name) const { return records_.value(name); }
   /// How often this station saw `from` -> `to` taken.
   [[nodiscard]] int timesTaken(const QString& from, const QString& to) const;
@@ -54,13 +49,14 @@ class FsmModel : public Model {
 
  private:
   void onStatus(std::shared_ptr<const FsmStatus> status);
-  void merge(const FsmHistoryEntry& entry);
+  [[nodiscard]] Duration pausedInState() const;
   void recount();
 
   std::shared_ptr<const FsmInfo> info_;
   std::shared_ptr<const FsmStatus> status_;
   Duration paused_{};  ///< of the time in the present state, as far as this station has seen it
-  std::vector<Visit> visits_;
+  std::shared_ptr<const RunHistory> whole_;  ///< of a recording
+  VisitLog visits_;
   QHash<QString, StateRecord> records_;
   QHash<QString, int> taken_;
 };

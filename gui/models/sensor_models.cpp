@@ -28,6 +28,7 @@ CloudModel::CloudModel(Link& link, QObject* parent) : Model(link, kVideoAge, par
 }
 
 ThermalModel::ThermalModel(Link& link, QObject* parent) : Model(link, kVideoAge, parent) {
+  connect(&link, &Link::restarted, this, [this] { advanced_ = stationNow(); });
   connect(&link, &Link::absent, this, [this](const std::vector<Topic>& topics) {
     if (!holds(topics, Topic::Thermal)) return touch();
     image_.reset();

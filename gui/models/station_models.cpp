@@ -3,6 +3,9 @@
 #include "gui/models/alone.h"
 
 namespace kiln::gui {
+namespace {
+constexpr int kInfo = 2, kWarn = 3, kError = 4;  // of the log
+}
 
 StationModels::StationModels(Link& link_in, QObject* parent)
     : QObject(parent),
@@ -24,18 +27,25 @@ StationModels::StationModels(Link& link_in, QObject* parent)
       macros(link),
       alarms(link, commands),
       log(link),
-      trends(link) {
+      history(link, alarms, commands) {
   connect(&flush_timer_, &QTimer::timeout, this, &StationModels::flush);
   // First of all listeners: what the station itself watches is up to date when the views look.
   connect(this, &StationModels::aged, this, [this] {
     watchLink();
     watchViews();
+    history.watchAlarms();
   });
   connect(&age_timer_, &QTimer::timeout, this, &StationModels::aged);
   connect(&commands, &CommandModel::progressed, this, [this](const TrackedCommand& command) {
     if (command.bad())
-      log.addOwn(3, command.label + ": " + toText(command.state) + ", " + command.reason);
-    if (command.state == CommandState::Sent) log.addOwn(2, command.label + ": sent");
+      log.addOwn(kWarn, command.label + ": " + toText(command.state) + ", " + command.reason);
+    if (command.state == CommandState::Sent) log.addOwn(kInfo, command.label + ": sent");
+  });
+  connect(&alarms, &AlarmModel::ownChanged, this, [this](const Alarm& alarm) {
+    const QString text = QString::fromStdString(alarm.text);
+    if (!alarm.active) return log.addOwn(kInfo, tr("alarm over: %1").arg(text));
+    log.addOwn(alarm.level == AlarmLevel::Advisory ? kWarn : kError,
+               tr("alarm: %1; %2").arg(text, QString::fromStdString(alarm.action)));
   });
   flush_timer_.start(kFlushPeriod_ms);
   age_timer_.start(kAgePeriod_ms);
@@ -73,12 +83,13 @@ void StationModels::flush() {
         static_cast<Model*>(&thermal), static_cast<Model*>(&camera),
         static_cast<Model*>(&head_camera), static_cast<Model*>(&scene),
         static_cast<Model*>(&localization), static_cast<Model*>(&map), static_cast<Model*>(&macros),
-        static_cast<Model*>(&alarms), static_cast<Model*>(&log), static_cast<Model*>(&trends)}) {
+        static_cast<Model*>(&alarms), static_cast<Model*>(&log), static_cast<Model*>(&history)}) {
     model->flush();
   }
 }
 
 void StationModels::watchLink() {
+  if (link.readOnly()) return;  // a recording has neither a link nor cameras that could fail now
   const LinkHealth& health = link_state.health();
   const bool heard_before = status.hasData();
   alarms.setOwn(
@@ -100,13 +111,14 @@ void StationModels::watchLink() {
 }
 
 void StationModels::watchViews() {
-  const bool linked = link_state.health().state == LinkState::Up;
+  // Without a link nobody knows whether a camera is back: what stands goes on standing.
+  if (link.readOnly() || link_state.health().state != LinkState::Up) return;
   alarms.setOwn(QStringLiteral("station.camera_stale"), AlarmLevel::Caution,
-                linked && camera.hasData() && camera.ageLevel() == AgeLevel::Red,
+                camera.hasData() && camera.ageLevel() == AgeLevel::Red,
                 tr("Operator camera frozen %1 s").arg(camera.ageS(), 0, 'f', 1),
                 tr("check its cable or use another view; jog from it is locked"));
   alarms.setOwn(QStringLiteral("station.thermal_stale"), AlarmLevel::Caution,
-                linked && thermal.hasData() && thermal.ageLevel() == AgeLevel::Red,
+                thermal.hasData() && thermal.ageLevel() == AgeLevel::Red,
                 tr("Thermal camera frozen %1 s").arg(thermal.ageS(), 0, 'f', 1),
                 tr("check its cable"));
 }

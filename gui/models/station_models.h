@@ -5,13 +5,13 @@
 #include "gui/models/alarm_model.h"
 #include "gui/models/command_model.h"
 #include "gui/models/fsm_model.h"
+#include "gui/models/history_model.h"
 #include "gui/models/lease_model.h"
 #include "gui/models/localization_model.h"
 #include "gui/models/mission_model.h"
 #include "gui/models/sensor_models.h"
 #include "gui/models/status_models.h"
 #include "gui/models/stop_model.h"
-#include "gui/models/trend_model.h"
 
 namespace kiln::gui {
 
@@ -43,7 +43,7 @@ class StationModels : public QObject {
   MacroModel macros;
   AlarmModel alarms;
   LogModel log;
-  TrendModel trends;
+  HistoryModel history;
 
   [[nodiscard]] const Clock& clock() const { return link.clock(); }
   /// Robot time now; the newest status' time while the offset is unknown.

@@ -240,6 +240,11 @@ std::string lateProduct(const PreflightInputs& in, const PreflightLimits& limits
   return fmt::format("no cloud for {:.1f} s although the LiDAR delivers", *in.cloud_age_s);
 }
 
+std::string silentLidar(const PreflightInputs& in, const PreflightLimits& limits) {
+  if (!in.lidar_age_s || *in.lidar_age_s <= limits.lidar_age_s) return {};
+  return fmt::format("no scan for {:.1f} s", *in.lidar_age_s);
+}
+
 Check writersCheck(const std::vector<ActuatorWriter>& actuators, Mode mode) {
   const char* program = mode == Mode::Teleop ? "macro" : "mission";
   std::string found;

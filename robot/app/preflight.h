@@ -85,6 +85,8 @@ struct ActuatorWriter {
 /// What perception owes: frames arrive and nothing is made of them ("no cloud for 3.1 s although
 /// the LiDAR delivers"). Empty: it keeps up, or its sensors are silent, which is their own row.
 [[nodiscard]] std::string lateProduct(const PreflightInputs& inputs, const PreflightLimits& limits);
+/// "no scan for 2.1 s" of a LiDAR that has delivered; empty: it delivers, or never has.
+[[nodiscard]] std::string silentLidar(const PreflightInputs& inputs, const PreflightLimits& limits);
 /// Which of arm, base and pumps is silent and for how long ("no state of the base for 1.2 s"):
 /// whatever the mission is at, it stands still. Empty: all report.
 [[nodiscard]] std::string silentDevice(const PreflightInputs& inputs,

@@ -82,7 +82,7 @@ void RobotLocalization::monitorMotion(Stamp now) {
   const std::string wrong =
       motion_watch_.step({tracking.stamp, tracking.commanded, tracking.measured,
                           tracking.X_odom_base, located() ? std::optional(pose()) : std::nullopt});
-  if (!wrong.empty()) (void)body_.stop.set("motion watch: " + wrong, now);
+  if (!wrong.empty()) (void)body_.stop.set(std::string(kMotionWatchSource) + wrong, now);
 }
 
 LocalizationStatus RobotLocalization::status() const {

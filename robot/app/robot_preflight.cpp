@@ -35,6 +35,7 @@ void RobotReporting::runChecks(Stamp now) {
   if (found.has_pumps) writers.push_back({"pumps", body_.pumps.tracking().writer});
   checks_.push_back(writersCheck(writers, parts_.mission.host().mode()));
   silent_device_ = silentDevice(found, body_.settings.preflight);
+  silent_lidar_ = silentLidar(found, body_.settings.preflight);
   late_product_ = lateProduct(found, body_.settings.preflight);
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "common/geom/frames.h"
+#include "robot/app/standing_alarms.h"
 #include "robot/app/standstill.h"
 
 namespace kiln {
@@ -44,6 +45,8 @@ void RobotReporting::raiseAlarms(Stamp now) {
   alarms.set("devices.lost", !body_.devices.connected(), AlarmLevel::Warning,
              "No connection to the robot's devices",
              "check power and kiln-sim; the robot stands still by itself", now);
+  setLidarAlarm(alarms, silent_lidar_, now);
+  setMotionWatchAlarm(alarms, body_.stop, now);
   alarms.set("perception.late", fsm.running && !late_product_.empty(), AlarmLevel::Warning,
              "Perception does not deliver: " + late_product_,
              "the picture is old: do not steer by it; restart the daemon", now);

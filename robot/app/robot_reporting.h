@@ -63,6 +63,7 @@ class RobotReporting {
   bool driven_grew_ = false;
   std::vector<Check> checks_;
   std::string silent_device_;     ///< which does not report; empty: all do
+  std::string silent_lidar_;      ///< since when; empty: it delivers
   std::string late_product_;      ///< what perception owes; empty: it keeps up
   std::vector<LimitRow> limits_;  ///< configured against possible
   std::optional<double> disk_free_gb_;

@@ -3,12 +3,16 @@
 #include <deque>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "common/config/config_archive.h"
 #include "common/core/stamp.h"
 #include "common/geom/pose.h"
 
 namespace kiln {
+
+/// How the source of its STOP begins.
+inline constexpr std::string_view kMotionWatchSource = "motion watch: ";
 
 /// Does the base do what it is told? Holds the commanded motion against what the wheels measure,
 /// and what the wheels measure against localisation (NimbRo UGV paper: "a faulty controller caused

@@ -2,8 +2,10 @@
 
 #include <QFontMetrics>
 #include <QHBoxLayout>
+#include <QMouseEvent>
 #include <QPainter>
 
+#include "gui/views/alarm_strip/alarm_mark.h"
 #include "gui/widgets/fitted_text.h"
 #include "gui/widgets/text.h"
 
@@ -12,18 +14,6 @@ namespace kiln::gui {
 namespace {
 constexpr int kHeight_px = 36;
 constexpr int kText_px = 34;
-
-QString levelWord(AlarmLevel level) {
-  switch (level) {
-    case AlarmLevel::Advisory:
-      return QObject::tr("Note");
-    case AlarmLevel::Caution:
-      return QObject::tr("Caution");
-    case AlarmLevel::Warning:
-      return QObject::tr("WARNING");
-  }
-  return {};
-}
 }  // namespace
 
 AlarmStrip::AlarmStrip(const Ui& ui, StationModels& models, QWidget* parent)
@@ -33,6 +23,7 @@ AlarmStrip::AlarmStrip(const Ui& ui, StationModels& models, QWidget* parent)
       acknowledge_(new ActButton(ui, tr("Acknowledge"), this)),
       log_(new ActButton(ui, tr("Event log"), this)) {
   setFixedHeight(kHeight_px);
+  setCursor(Qt::PointingHandCursor);
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(0, 3, 4, 3);
   row->setSpacing(6);
@@ -87,28 +78,14 @@ void AlarmStrip::refresh() {
   acknowledge_->setEnabled(!models_.link.readOnly());
   setTip(*acknowledge_,
          models_.link.readOnly() ? tr("a recording cannot be commanded") : QString());
-  setTip(*this, text());
+  setTip(*this, text().isEmpty() ? tr("Show all alarms (F2)")
+                                 : tr("%1\nClick: all alarms (F2)").arg(text()));
   update();
 }
 
-void AlarmStrip::paintLevel(QPainter& painter, const QRectF& area, AlarmLevel level,
-                            const QColor& color) const {
-  const QPointF c = area.center();
-  painter.setPen(Qt::NoPen);
-  painter.setBrush(color);
-  switch (level) {
-    case AlarmLevel::Warning:
-      painter.drawPolygon(QPolygonF() << c + QPointF(0, -8) << c + QPointF(8, 0)
-                                      << c + QPointF(0, 8) << c + QPointF(-8, 0));
-      break;
-    case AlarmLevel::Caution:
-      painter.drawPolygon(QPolygonF()
-                          << c + QPointF(0, -7) << c + QPointF(8, 6) << c + QPointF(-8, 6));
-      break;
-    case AlarmLevel::Advisory:
-      painter.drawEllipse(c, 5, 5);
-      break;
-  }
+void AlarmStrip::mousePressEvent(QMouseEvent* event) {
+  event->accept();
+  emit listRequested();
 }
 
 void AlarmStrip::paintEvent(QPaintEvent*) {
@@ -139,7 +116,7 @@ void AlarmStrip::paintEvent(QPaintEvent*) {
   }
   const QColor color = warning ? p.fault : caution ? p.caution : p.text;
   painter.fillRect(QRectF(1, 1, 5, height() - 2), color);
-  paintLevel(painter, QRectF(11, 0, 18, height()), level, color);
+  paintAlarmMark(painter, QPointF(20, height() / 2.0), level, color);
   const QFont strong = ui_.theme.font(TextRole::Strong);
   const QFont body = ui_.theme.font(TextRole::Body);
   painter.setFont(strong);

@@ -19,15 +19,15 @@ class AlarmStrip : public QWidget {
 
  signals:
   void logRequested();
+  void listRequested();  ///< a click beside the buttons
 
  protected:
   void paintEvent(QPaintEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
 
  private:
   void refresh();
   [[nodiscard]] QString summary() const;
-  void paintLevel(QPainter& painter, const QRectF& area, AlarmLevel level,
-                  const QColor& color) const;
   Ui ui_;
   StationModels& models_;
   ActButton* acknowledge_;

@@ -100,6 +100,8 @@ void StateCard::refreshHeader(const FsmStatus& fsm) {
   const FsmStateInfo* state = models_.fsm.state(models_.fsm.current());
   if (fsm.terminal) {
     setInfo(fsm.success ? tr("mission succeeded") : tr("mission ended without success"));
+  } else if (models_.fsm.ageLevel() != AgeLevel::Fresh) {
+    setInfo(tr("%1 s when last heard").arg(in_state_s, 0, 'f', 1));
   } else if (state && state->time_limit_s > 0) {
     setInfo(
         tr("in state %1 s of %2 s").arg(in_state_s, 0, 'f', 1).arg(state->time_limit_s, 0, 'f', 0));

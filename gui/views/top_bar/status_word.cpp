@@ -3,6 +3,7 @@
 #include <QFontMetricsF>
 #include <QPainter>
 #include <QPainterPath>
+#include <algorithm>
 
 #include "gui/models/alone.h"
 #include "gui/widgets/fitted_text.h"
@@ -15,6 +16,17 @@ namespace {
 constexpr double kGap_px = 12.0;
 constexpr int kNarrow_px = 520;  // a narrower block keeps its room for the reason
 constexpr int kNameless_px = 400;
+constexpr int kNarrow_pct = 80;
+constexpr double kNarrowWord_pt = 15.0;  // leaves the reason its room
+
+/// "a; b · c: d" -> "a; b · c" -> "a; b" -> "a"; itself if it is one clause.
+QString withoutLastClause(const QString& text) {
+  int at = -1;
+  for (const char* end : {"; ", " · ", ": ", ". ", ", "})
+    at = std::max(at, static_cast<int>(text.lastIndexOf(QString::fromUtf8(end))));
+  return at > 0 ? text.left(at) : text;
+}
+
 QString fromView(std::string_view text) {
   return QString::fromUtf8(text.data(), static_cast<int>(text.size()));
 }
@@ -122,7 +134,8 @@ void StatusBlock::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   painter.setRenderHint(QPainter::Antialiasing);
   double x = paintChip(painter, paintName(painter));
-  const QFont large = ui_.theme.font(TextRole::Word);
+  QFont large = ui_.theme.font(TextRole::Word);
+  if (width() < kNarrow_px) large.setPointSizeF(kNarrowWord_pt);
   painter.setFont(large);
   painter.setPen(wordColor());
   painter.drawText(QRectF(x, 0, width() - x, height()), Qt::AlignVCenter | Qt::AlignLeft, word());
@@ -130,10 +143,23 @@ void StatusBlock::paintEvent(QPaintEvent*) {
   painter.setPen(ui_.theme.colors().text);
   const QString text = reason();
   setTip(*this, text);
+  reason_room_px_ = static_cast<int>(width() - x - 6);
+  paintFitted(painter, QRectF(x, 0, reason_room_px_, height()), Qt::AlignVCenter | Qt::AlignLeft,
+              fittedReason());
+}
+
+FittedText StatusBlock::fittedReason() const {
   const QFont body = ui_.theme.font(TextRole::Body), small = ui_.theme.font(TextRole::Small);
-  const int room = static_cast<int>(width() - x - 6);
-  paintFitted(painter, QRectF(x, 1, room, height()), Qt::AlignVCenter | Qt::AlignLeft,
-              fitText(text, {body, small}, room, 2));
+  for (QString text = reason();;) {
+    FittedText out = fitText(text, {body, small}, reason_room_px_, 2);
+    if (!out.whole) out = fitText(text, {small, condensed(small, kNarrow_pct)}, reason_room_px_, 3);
+    // Rather without its last clause than cut in the middle of a word.
+    const QString shorter = withoutLastClause(text);
+    const int most_px = height() / std::max(1, static_cast<int>(out.lines.size()));
+    out.line_px = std::min(out.line_px, most_px);  // three lines stand close
+    if (out.whole || shorter == text) return out;
+    text = shorter;
+  }
 }
 
 }  // namespace kiln::gui

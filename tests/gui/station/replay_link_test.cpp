@@ -17,6 +17,7 @@
 #include "gui/panels/fire/thermal_tile.h"
 #include "gui/views/camera/camera_tile.h"
 #include "gui/views/log/log_view.h"
+#include "gui/views/timeline/timeline_view.h"
 
 namespace kiln::gui {
 namespace {
@@ -77,6 +78,8 @@ class ReplayLinkTest : public testing::Test {
       status.seq = static_cast<std::uint64_t>(i);
       status.environment = Environment::Sim;
       status.word = StatusWord::Auto;
+      status.stop.latched = i >= 200 && i < 300;  // from 20 s to 30 s
+      status.stop.source = "Ann";
       status.X_map_base.x_m = 0.05 * i;
       EXPECT_TRUE((*writer)->write(*channel, status.stamp, status.stamp, wire::encode(status)));
     }
@@ -180,6 +183,33 @@ TEST_F(ReplayLinkTest, WhatComesAfterAJumpIsNotForgottenWithIt) {
         << "jump " << i << " to " << to;
     EXPECT_EQ(models->status.ageLevel(), AgeLevel::Fresh);
   }
+}
+
+TEST_F(ReplayLinkTest, TheWholeRunIsOnTheTimeLineWhereverItStands) {
+  Theme theme;
+  TimelineView view({theme, link->clock()}, *models);
+  view.resize(1200, 200);
+  link->open();
+  link->setPlaying(false);
+  const auto end = [&] { return models->history.run().end(); };
+  ASSERT_TRUE(QTest::qWaitFor([&] { return models->history.whole() && end() == at(kStart_s + 60); },
+                              kPatience_ms));
+  for (const double to : {40.0, 5.0, 55.0}) {
+    link->seek(at(kStart_s + to));
+    ASSERT_TRUE(QTest::qWaitFor([&] { return seq() == static_cast<std::uint64_t>(10 * to); },
+                                kPatience_ms));
+    const auto& stop = models->history.run().lane(RunHistory::Stop);
+    ASSERT_EQ(stop.size(), 1U);
+    EXPECT_EQ(stop[0].from, at(kStart_s + 20));
+    EXPECT_NEAR(view.axis().xOf(at(kStart_s)), view.axis().plot.left(), 1e-6);
+    EXPECT_NEAR(view.axis().xOf(at(kStart_s + 60)), view.axis().plot.right(), 1e-6);
+    EXPECT_FALSE(view.valuesAt(view.axis().xOf(at(kStart_s + 25))).filter("STOP by Ann").isEmpty());
+  }
+  Stamp wanted;
+  QObject::connect(&view, &TimelineView::seekWanted, [&](Stamp t) { wanted = t; });
+  QTest::mouseClick(&view, Qt::LeftButton, {},
+                    {static_cast<int>(view.axis().xOf(at(kStart_s + 30))), 20});
+  EXPECT_NEAR(toSeconds(wanted - at(kStart_s + 30)), 0.0, 0.1);
 }
 
 TEST_F(ReplayLinkTest, TheSpeedIsClampedAndTheEndIsTold) {

@@ -94,5 +94,44 @@ TEST(Staleness, ADeafRobotIsTold) {
   EXPECT_EQ(station.models.alarms.top()->alarm.id, "station.not_heard");
 }
 
+TEST(Staleness, TheStationsOwnAlarmsAreInTheEventLog) {
+  SteppedStation station(true);
+  station.pass(2.0);
+  const auto logged = [&](const std::string& words) {
+    int count = 0;
+    for (const LogLine& line : station.models.log.lines())
+      count += line.logger == "station" && line.text.find(words) != std::string::npos ? 1 : 0;
+    return count;
+  };
+  station.link.setSilent(true);
+  for (int i = 0; i < 30; ++i) station.pass(0.2);
+  EXPECT_EQ(logged("alarm: No link to the robot"), 1) << "once, not each time that it is judged";
+  EXPECT_EQ(logged("alarm over"), 0);
+  station.link.setSilent(false);
+  station.pass(1.0);
+  EXPECT_EQ(logged("alarm over: No link to the robot"), 1);
+  for (int i = 0; i < 20; ++i) station.pass(0.2);
+  EXPECT_EQ(logged("alarm"), 2);
+}
+
+TEST(Staleness, AFrozenCameraIsNotOverBecauseTheLinkIsLost) {
+  SteppedStation station;
+  auto frozen = std::make_shared<RgbImage>();
+  frozen->frame = "operator_camera";
+  frozen->data.resize(3);
+  frozen->stamp = station.link.clock().now();
+  emit station.link.image(frozen);
+  station.pass(4.0);
+  const auto standing = [&] {
+    for (const auto& entry : station.models.alarms.entries())
+      if (entry.alarm.id == "station.camera_stale") return entry.alarm.active;
+    return false;
+  };
+  EXPECT_TRUE(standing());
+  station.link.setSilent(true);
+  station.pass(4.0);
+  EXPECT_TRUE(standing());
+}
+
 }  // namespace
 }  // namespace kiln::gui

@@ -123,7 +123,7 @@ TEST_F(StateCardTest, AnExitIsOnlyTakenAfterTheHold) {
   const QString target = jump.target();
   hold(tile.panel()->jumpButton(), 1.1);
   const auto& visits = station.models.fsm.visits();  // the mission may have gone on from there
-  EXPECT_TRUE(std::any_of(visits.begin(), visits.end(), [&](const FsmModel::Visit& v) {
+  EXPECT_TRUE(std::any_of(visits.begin(), visits.end(), [&](const Visit& v) {
     return v.state == target && v.cause == TransitionCause::Operator;
   })) << jump.message().toStdString();
 }

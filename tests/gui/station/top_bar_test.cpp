@@ -90,6 +90,40 @@ TEST_F(TopBarTest, ALostLinkLeavesTheWordOfWhatTheRobotDoesAlone) {
   }
 }
 
+TEST_F(TopBarTest, TheSentenceBesideTheWordIsNeverCutOff) {
+  const auto look = [&] {
+    for (const int width : {936, 1000, 1272, 1358, 1672, 1912}) {
+      bar.resize(width, 48);
+      QCoreApplication::processEvents();  // the layout
+      (void)bar.grab();
+      const FittedText text = bar.statusBlock()->fittedReason();
+      EXPECT_TRUE(text.whole) << width << ": " << text.lines.join('|').toStdString();
+      EXPECT_LE(text.height(), 48) << width;
+      EXPECT_EQ(bar.statusBlock()->toolTip(), bar.statusBlock()->reason());
+    }
+  };
+  for (Check& check : station.link.robot().checks) {
+    const Check fine = check;
+    check.ok = false;
+    check.detail = "no scan for 2.1 s";
+    check.action = "Check its cable and its power, then restart the daemon on the robot.";
+    station.pass(0.3);
+    look();
+    check = fine;
+  }
+  station.startMission();
+  for (int i = 0; i < 20; ++i) {
+    station.pass(1.5);
+    look();
+  }
+  station.link.robot().stop("Benjamin the second");
+  station.pass(0.3);
+  look();
+  station.link.setSilent(true);
+  station.pass(8.0);
+  look();
+}
+
 TEST_F(TopBarTest, WithoutALinkStopIsStillPressedKeptAndSaysWhatToDo) {
   EXPECT_TRUE(bar.stopNote()->isHidden());
   station.link.setSilent(true);
