@@ -16,6 +16,8 @@ constexpr double kZoomStep = 1.15;
 constexpr double kMinZoom = 0.6;
 constexpr double kMaxZoom = 3.0;
 constexpr double kDragStart_px = 4.0;
+constexpr double kCut_px = 3.0;    // less of a box missing is no box missing
+constexpr double kMore_px = 26.0;  // of the sign that there is more
 constexpr int kFewestRows = 6;
 constexpr int kMostRows = 12;
 }  // namespace
@@ -96,6 +98,47 @@ void GraphView::paintEvent(QPaintEvent*) {
   painter.translate(offset_);
   painter.scale(zoom_, zoom_);
   GraphPainter(painter, {ui_.theme, models_, jump_, layout_, geometry_, search_, hover_}).paint();
+  painter.resetTransform();
+  paintHidden(painter);
+}
+
+int GraphView::hiddenAbove() const {
+  return static_cast<int>(std::count_if(
+      geometry_.nodes().begin(), geometry_.nodes().end(),
+      [this](const QRectF& box) { return box.top() * zoom_ + offset_.y() < -kCut_px; }));
+}
+
+int GraphView::hiddenBelow() const {
+  return static_cast<int>(
+      std::count_if(geometry_.nodes().begin(), geometry_.nodes().end(), [this](const QRectF& box) {
+        return box.bottom() * zoom_ + offset_.y() > height() + kCut_px;
+      }));
+}
+
+/// What is cut off at the rim could pass for all there is.
+void GraphView::paintHidden(QPainter& painter) const {
+  const int above = hiddenAbove(), below = hiddenBelow();
+  if (above > 0)
+    paintMore(painter, QRectF(0, 0, width(), kMore_px), tr("▴ %1 more: drag").arg(above));
+  if (below > 0)
+    paintMore(painter, QRectF(0, height() - kMore_px, width(), kMore_px),
+              tr("▾ %1 more: drag").arg(below));
+}
+
+void GraphView::paintMore(QPainter& painter, const QRectF& edge, const QString& text) const {
+  const Palette& p = ui_.theme.colors();
+  QColor clear = p.panel, veil = p.panel;
+  clear.setAlphaF(0.0);
+  veil.setAlphaF(0.94);
+  const bool top = edge.top() <= 0.0;
+  QLinearGradient fade(edge.topLeft(), edge.bottomLeft());
+  fade.setColorAt(top ? 1.0 : 0.0, clear);
+  fade.setColorAt(0.5, veil);
+  fade.setColorAt(top ? 0.0 : 1.0, veil);
+  painter.fillRect(edge, fade);
+  painter.setPen(p.text);
+  painter.setFont(ui_.theme.font(TextRole::Small));
+  painter.drawText(edge, (top ? Qt::AlignTop : Qt::AlignBottom) | Qt::AlignHCenter, text);
 }
 
 void GraphView::resizeEvent(QResizeEvent*) {

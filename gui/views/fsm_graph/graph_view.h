@@ -23,6 +23,9 @@ class GraphView : public QWidget {
   QString search(const QString& text);
   void fit();
   [[nodiscard]] std::optional<QRectF> nodeRect(const QString& name) const;  ///< in widget pixels
+  /// How many states lie, in part at least, above and below what is shown.
+  [[nodiscard]] int hiddenAbove() const;
+  [[nodiscard]] int hiddenBelow() const;
   [[nodiscard]] QString nodeAt(const QPointF& position) const;
   [[nodiscard]] QSize minimumSizeHint() const override { return {250, 200}; }
 
@@ -44,6 +47,8 @@ class GraphView : public QWidget {
   void arrange();
   void keepInside();
   void showCurrent();
+  void paintHidden(QPainter& painter) const;
+  void paintMore(QPainter& painter, const QRectF& edge, const QString& text) const;
   [[nodiscard]] Markup tipFor(const QString& name) const;
   Ui ui_;
   StationModels& models_;

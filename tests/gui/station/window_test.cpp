@@ -14,6 +14,7 @@
 #include "gui/app/window_memory.h"
 #include "gui/views/alarm_strip/alarm_strip.h"
 #include "gui/views/fsm_graph/fsm_tile.h"
+#include "gui/views/fsm_graph/graph_view.h"
 #include "gui/views/macros/macros_tile.h"
 #include "gui/views/state_card/state_card.h"
 #include "gui/views/teleop/teleop_tile.h"
@@ -126,6 +127,21 @@ TEST_P(WindowTest, ADoubleClickOnItsTitleGivesATileTheMiddle) {
     step();
     EXPECT_EQ(tile->size(), before);
   }
+}
+
+TEST_P(WindowTest, TheGraphSaysThatThereIsMoreOfIt) {
+  const GraphView& graph = *window.fsmTile()->graph();
+  window.tileLayout().bringToFront(*window.fsmTile());
+  step();
+  int cut = 0;
+  for (const FsmStateInfo& state : models.fsm.info()->states) {
+    const auto box = graph.nodeRect(QString::fromStdString(state.name));
+    ASSERT_TRUE(box);
+    cut += box->bottom() > graph.height() + 3 || box->top() < -3 ? 1 : 0;
+  }
+  EXPECT_EQ(graph.hiddenAbove() + graph.hiddenBelow(), cut);
+  const bool fits = GetParam().height() >= 1000;
+  EXPECT_EQ(cut == 0, fits) << cut << " states are cut off";
 }
 
 TEST_P(WindowTest, SpaceStopsWhereverTheFocusIs) {
