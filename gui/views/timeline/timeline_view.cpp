@@ -211,7 +211,7 @@ QString TimelineView::commandAt(Stamp at) const {
       nearest = &command;
   }
   if (!nearest) return {};
-  const QString told = tr("%1 · %2").arg(nearest->label, toText(nearest->phase));
+  const QString told = tr("%1 · %2").arg(nearest->label, toText(nearest->state));
   return nearest->reason.isEmpty() ? told : tr("%1: %2").arg(told, nearest->reason);
 }
 

@@ -22,6 +22,8 @@ namespace {
 
 // The rhythm of a hand, part of what is tried: nothing is awaited in it. An answer has a limit.
 constexpr int kSettle_ms = 30, kAnswer_ms = 600;
+constexpr int kStill = 8, kStill_ms = 5000;  // looks at a layout that stands; 10 ms apart
+constexpr int kAttempts = 10;
 
 /// Whether a press on one control is alive, told from the events that reach it alone.
 class Press : public QObject {
@@ -51,6 +53,24 @@ class Press : public QObject {
   QWidget& control_;
   QRect place_;
   bool alive_ = false;
+};
+
+/// Why the window has ended holds by itself.
+class LettingGo {
+ public:
+  explicit LettingGo(HoldToRun& hold)
+      : connection_(QObject::connect(&hold, &HoldToRun::tripped, [this](const QString& why) {
+          if (!why.isEmpty()) why_ += (why_.empty() ? "" : "; ") + why.toStdString();
+        })) {}
+  ~LettingGo() { QObject::disconnect(connection_); }
+  [[nodiscard]] const std::string& why() const { return why_; }
+  /// By design a window that is not served for longer than a dead-man's time lets go: on a machine
+  /// that is busy enough this is no fault.
+  [[nodiscard]] bool busy() const { return why_.find("busy") != std::string::npos; }
+
+ private:
+  std::string why_;
+  QMetaObject::Connection connection_;
 };
 
 class HoldEventsTest : public testing::Test {
@@ -112,6 +132,20 @@ class HoldEventsTest : public testing::Test {
                             kiln::HoldKind::Actuator, kiln::HoldKind::Macro})
       if (link.robot().held(kind)) return true;
     return false;
+  }
+  /// Waits until the window manager and the layout have done with it: a hold on a control that
+  /// moves ends by design.
+  [[nodiscard]] static bool standsStill(const QWidget& control) {
+    QRect last;
+    int still = 0;
+    return QTest::qWaitFor(
+        [&] {
+          const QRect now(control.mapToGlobal(QPoint()), control.size());
+          still = control.isVisible() && now == last ? still + 1 : 0;
+          last = now;
+          return still >= kStill;
+        },
+        kStill_ms);
   }
   void moveTo(const QPoint& global) { hand.moveTo(global.x(), global.y()); }
   /// What may move under a pressed pointer.
@@ -199,23 +233,30 @@ TEST_F(HoldEventsTest, JogKeysDriveWhileTheMacrosAreInFront) {
   window->resize(1400, 800);
   window->tileLayout().showMacros(true);
   MacrosTile* macros = window->macrosTile();
-  ASSERT_TRUE(QTest::qWaitFor([&] { return macros->isVisible() && macros->height() > 100; }));
-  moveTo(macros->mapToGlobal({60, 12}));
-  hand.press();
-  hand.release();
-  ASSERT_TRUE(QTest::qWaitFor([&] { return macros->hasFocus(); }, kAnswer_ms));
-  hand.key('w', true);
-  EXPECT_TRUE(
-      QTest::qWaitFor([&] { return link.robot().held(kiln::HoldKind::BaseJog); }, kAnswer_ms));
   HoldButton& pump = window->findChild<PumpPanel*>()->pump();
-  moveTo(pump.mapToGlobal(pump.rect().center()));
-  hand.press();  // water while it drives
-  EXPECT_TRUE(
-      QTest::qWaitFor([&] { return link.robot().held(kiln::HoldKind::Actuator); }, kAnswer_ms));
-  EXPECT_TRUE(link.robot().held(kiln::HoldKind::BaseJog));
-  hand.release();
-  hand.key('w', false);
-  EXPECT_TRUE(QTest::qWaitFor([&] { return !anyHeld(); }, kAnswer_ms));
+  const auto held = [&](kiln::HoldKind kind) { return link.robot().held(kind); };
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    ASSERT_TRUE(standsStill(*macros) && standsStill(pump));
+    moveTo(macros->mapToGlobal({60, 12}));
+    hand.press();
+    hand.release();
+    ASSERT_TRUE(QTest::qWaitFor([&] { return macros->hasFocus(); }, kAnswer_ms));
+    LettingGo let_go(window->hold());
+    hand.key('w', true);
+    const bool drives = QTest::qWaitFor([&] { return held(kiln::HoldKind::BaseJog); }, kAnswer_ms);
+    moveTo(pump.mapToGlobal(pump.rect().center()));
+    hand.press();  // water while it drives
+    const bool sprays = QTest::qWaitFor([&] { return held(kiln::HoldKind::Actuator); }, kAnswer_ms);
+    const bool both = drives && sprays && held(kiln::HoldKind::BaseJog);
+    hand.release();
+    hand.key('w', false);
+    EXPECT_TRUE(QTest::qWaitFor([&] { return !anyHeld(); }, kAnswer_ms));
+    if (let_go.busy()) continue;  // as the operator is told: press again
+    EXPECT_TRUE(both) << "drives " << drives << ", sprays " << sprays << "; the window let go: '"
+                      << let_go.why() << "'";
+    return;
+  }
+  FAIL() << "the machine is too busy for any hold";
 }
 
 TEST_F(HoldEventsTest, AWindowThatGoesWhilePressedLetsGo) {
