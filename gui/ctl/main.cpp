@@ -188,7 +188,8 @@ void addHolds(CLI::App& app, Request& request) {
       return kiln::ctl::holdSetpoint(console, body, request.seconds);
     };
   };
-  CLI::App* jog = app.add_subcommand("jog", "move by hand while this runs (mode teleop); shows no view: keep the robot in sight");
+  CLI::App* jog = app.add_subcommand(
+      "jog", "move by hand while this runs (mode teleop); shows no view: keep the robot in sight");
   jog->require_subcommand(1);
   CLI::App* base = jog->add_subcommand("base", "drive at this speed, in base");
   addThree(*base, request.base, {"VX", "VY", "WZ"}, {"m/s", "m/s", "rad/s"});
