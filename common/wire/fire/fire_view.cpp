@@ -128,6 +128,13 @@ void addWorkPose(const FirePlaceInfo& place, const Eigen::Vector2d& footprint_m,
   add({{l - 0.3, 0.3}, {l, 0.0}, {l - 0.3, -0.3}});
 }
 
+/// Where the robot has found the heat of a place; else its plate as configured.
+Eigen::Vector3d plateOf(const FirePlaceInfo& place, const FireSite& site) {
+  for (const FireEstimate& fire : site.fires)
+    if (fire.place == place.name && fire.p_map.allFinite()) return fire.p_map;
+  return place.p_map;
+}
+
 /// A cross where the jet hits, seen through everything.
 void addAim(const JetAim& aim, ItemStyle style, std::vector<SceneItem>& out) {
   constexpr double kArm_m = 0.08;
@@ -255,13 +262,14 @@ std::optional<JetAim> jetAim(const FireSite& site) {
   double nearest_m = kNearPlate_m;
   for (const FirePlaceInfo& place : site.places) {
     const Eigen::Vector3d out_of_plate(std::cos(place.yaw_rad), std::sin(place.yaw_rad), 0.0);
+    const Eigen::Vector3d p_plate = plateOf(place, site);
     for (std::size_t i = 1; i < site.jet_map.size(); ++i) {
       const Eigen::Vector3d &from = site.jet_map[i - 1], &to = site.jet_map[i];
-      const double before_m = out_of_plate.dot(from - place.p_map),
-                   after_m = out_of_plate.dot(to - place.p_map);
+      const double before_m = out_of_plate.dot(from - p_plate),
+                   after_m = out_of_plate.dot(to - p_plate);
       if (before_m < 0.0 || after_m >= 0.0) continue;
       const Eigen::Vector3d at = from + before_m / (before_m - after_m) * (to - from);
-      const Eigen::Vector3d miss = at - place.p_map;
+      const Eigen::Vector3d miss = at - p_plate;
       if (miss.norm() > nearest_m) continue;
       nearest_m = miss.norm();
       const Eigen::Vector3d left = Eigen::Vector3d::UnitZ().cross(-out_of_plate);

@@ -30,9 +30,10 @@ inline constexpr const char* kContinueDespite = "continue_despite";
 /// Where the predicted jet hits. In `map`, metres.
 struct JetAim {
   Eigen::Vector3d p_map = Eigen::Vector3d::Zero();
-  std::string place;    ///< whose plate it passes by kNearPlate_m at most; empty: none, its end
-  double left_m = 0.0;  ///< of the plate's centre, seen by who looks at the plate
-  double up_m = 0.0;    ///< above it
+  std::string place;  ///< whose plate it passes by kNearPlate_m at most; empty: none, its end
+  /// Of the plate's centre, seen by who looks at it: where the heat was found, else as configured.
+  double left_m = 0.0;
+  double up_m = 0.0;  ///< above it
 };
 inline constexpr double kNearPlate_m = 0.6;
 /// @return nullopt without a jet.

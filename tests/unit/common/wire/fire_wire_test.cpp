@@ -87,6 +87,7 @@ TEST(FireView, OutlinesTheWorkPoseOfAPlaceThatWasNotVisited) {
 
 TEST(FireView, TheAimIsWhereTheJetCrossesAPlate) {
   FireSite there = site();  // place 2: plate at (6, 5, 1), looks along X
+  there.fires.clear();
   there.jet_map = {{7.0, 4.8, 1.3}, {6.5, 4.8, 1.2}, {5.5, 4.8, 1.0}};
   const auto aim = fire::jetAim(there);
   ASSERT_TRUE(aim);
@@ -94,6 +95,11 @@ TEST(FireView, TheAimIsWhereTheJetCrossesAPlate) {
   EXPECT_NEAR((aim->p_map - Eigen::Vector3d(6.0, 4.8, 1.1)).norm(), 0.0, 1e-9);
   EXPECT_NEAR(aim->up_m, 0.1, 1e-9);
   EXPECT_NEAR(aim->left_m, 0.2, 1e-9);  // who looks along -X has -Y at the left
+  FireEstimate found;  // the plate stands where its heat was found, not where it was configured
+  found.place = "place 2";
+  found.p_map = Eigen::Vector3d(6.0, 4.8, 1.1);
+  there.fires = {found};
+  EXPECT_NEAR(std::hypot(fire::jetAim(there)->left_m, fire::jetAim(there)->up_m), 0.0, 1e-9);
   there.jet_map = {{7.0, 8.0, 1.3}, {6.5, 8.0, 0.4}};
   EXPECT_EQ(fire::jetAim(there)->place, "");
   EXPECT_EQ(fire::jetAim(there)->p_map, there.jet_map.back());
