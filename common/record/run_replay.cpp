@@ -63,15 +63,18 @@ RunInfo runInfo(const RecordReader& reader) {
 Result<RunReplay> RunReplay::open(const std::string& path, const Clock& wall) {
   auto reader = RecordReader::open(path);
   if (!reader) return tl::make_unexpected(reader.error());
-  bool any = false;
+  bool any = false, ours = false;
   bool protocol2 = true;
   for (const RecordedTopic& topic : reader->topics()) {
     any = any || run::publishedTopic(topic.topic).has_value();
+    ours = ours || any || topic.topic == run::kLidarScan;
     protocol2 = protocol2 && topic.topic != run::topicName(Topic::MissionInfo);
   }
-  if (!any || reader->empty()) {
+  if (!ours || reader->empty()) return tl::make_unexpected(run::notOurs(*reader));
+  if (!any) {
     return makeError(ErrorCode::InvalidInput,
-                     "{}: no run of Kiln is in this recording; give a file that kiln-robotd wrote",
+                     "{}: sensors alone, nothing that a station was shown; give a file that "
+                     "kiln-robotd --record wrote",
                      path);
   }
   return RunReplay(std::make_unique<Player>(std::move(*reader), publishedTopics(), wall),

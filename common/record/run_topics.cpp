@@ -33,7 +33,6 @@ Result<RecordedMessage> requireMessages(const RecordReader& reader, std::string_
     if (!damage) damage = message.error();
   }
   if (damage) return tl::make_unexpected(*damage);
-  std::string others;
   for (const RecordedTopic& has : reader.topics()) {
     const std::string_view name = has.topic;
     if (name.starts_with("/kiln/") || name == kLidarScan) {
@@ -43,15 +42,25 @@ Result<RecordedMessage> requireMessages(const RecordReader& reader, std::string_
                        "--record wrote",
                        reader.path(), what, topic);
     }
+  }
+  return tl::make_unexpected(notOurs(reader));
+}
+
+Error notOurs(const RecordReader& reader) {
+  std::string others;
+  for (const RecordedTopic& has : reader.topics()) {
+    const std::string_view name = has.topic;
     if (others.size() < 100) others += (others.empty() ? "" : ", ") + printable(name);
   }
-  if (others.empty())
-    return makeError(ErrorCode::InvalidInput, "{}: no messages are in this recording",
-                     reader.path());
-  return makeError(ErrorCode::InvalidInput,
-                   "{}: a recording of another robot (it has {}); give a file that kiln-robotd "
-                   "--record wrote",
-                   reader.path(), others);
+  const auto error =
+      others.empty()
+          ? makeError(ErrorCode::InvalidInput, "{}: no messages are in this recording",
+                      reader.path())
+          : makeError(ErrorCode::InvalidInput,
+                      "{}: a recording of another robot (it has {}); give a file that kiln-robotd "
+                      "--record wrote",
+                      reader.path(), others);
+  return error.value();
 }
 
 }  // namespace kiln::run

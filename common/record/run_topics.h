@@ -39,4 +39,7 @@ inline constexpr std::string_view kRunAttachment = "run.json";       ///< versio
 [[nodiscard]] Result<RecordedMessage> requireMessages(const RecordReader& reader,
                                                       std::string_view topic);
 
+/// Of a file without any topic of ours: whose it is, or that it is empty. InvalidInput.
+[[nodiscard]] Error notOurs(const RecordReader& reader);
+
 }  // namespace kiln::run

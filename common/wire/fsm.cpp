@@ -7,6 +7,7 @@ namespace kiln::wire {
 namespace {
 
 constexpr std::size_t kMaxFsmBytes = 1u << 20;
+constexpr int kMaxStates = 256;  // a graph that somebody is to read
 
 void toProto(const FsmStateInfo& state, v1::FsmStateInfo& out) {
   out.set_name(state.name);
@@ -77,6 +78,9 @@ std::string encode(const FsmInfo& info) {
 Result<FsmInfo> decodeFsmInfo(std::string_view bytes) {
   const auto in = parse<v1::FsmInfo>(bytes, kMaxFsmBytes, "state graph");
   if (!in) return tl::make_unexpected(in.error());
+  if (in->states_size() > kMaxStates)
+    return makeError(ErrorCode::InvalidInput, "state graph: {} states are more than {}; dropped",
+                     in->states_size(), kMaxStates);
   FsmInfo info;
   info.mission = in->mission();
   info.mission_uuid = in->mission_uuid();

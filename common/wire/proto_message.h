@@ -17,9 +17,13 @@ namespace kiln::wire {
   return message.SerializeAsString();
 }
 
+/// No list of messages or texts is longer, however deep: whoever shows it makes an object of each
+/// row. (Numbers are packed and bounded by the message's size.)
+inline constexpr int kLongestList = 2000;
+
 /// Makes every string field, however deep, one line of printable characters (core/text.h): it came
-/// from outside and will be logged, shown and printed.
-void cleanText(google::protobuf::Message& message);
+/// from outside and will be logged, shown and printed. Error: a list of more than kLongestList.
+[[nodiscard]] Result<void> cleanText(google::protobuf::Message& message, const char* what);
 
 /// @param limit largest size that is parsed at all.
 template <class Message>
@@ -34,7 +38,7 @@ template <class Message>
     return makeError(ErrorCode::InvalidInput, "{}: {} bytes cannot be parsed; dropped", what,
                      bytes.size());
   }
-  cleanText(message);
+  if (auto ok = cleanText(message, what); !ok) return tl::make_unexpected(ok.error());
   return message;
 }
 

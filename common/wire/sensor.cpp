@@ -16,12 +16,17 @@ constexpr std::size_t kMaxStreamBytes = 16u << 20;
 constexpr std::size_t kMaxFrameName = 64;
 constexpr std::uint32_t kMaxThermalSide = 1024;
 constexpr std::uint32_t kMaxColourSide = 8192;
+constexpr std::uint64_t kMaxPixels = 4096 * 2304;  // what decodes into some 70 MiB
 
 Result<void> checkImageSize(std::uint32_t width, std::uint32_t height, std::uint32_t limit,
                             const char* what) {
   if (width == 0 || height == 0 || width > limit || height > limit) {
     return makeError(ErrorCode::InvalidInput, "{}: {} x {} pixels are not within 1 to {}; dropped",
                      what, width, height, limit);
+  }
+  if (std::uint64_t{width} * height > kMaxPixels) {
+    return makeError(ErrorCode::InvalidInput, "{}: {} x {} are more than {} pixels; dropped", what,
+                     width, height, kMaxPixels);
   }
   return {};
 }

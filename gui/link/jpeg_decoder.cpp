@@ -10,7 +10,8 @@ namespace kiln::gui {
 
 namespace {
 constexpr int kMaxSide_px = 8192;
-}
+constexpr std::size_t kMostCameras = 4;  // one that calls itself otherwise each time is no more
+}  // namespace
 
 JpegDecoder::JpegDecoder(std::function<void(RgbImagePtr)> done,
                          std::function<void(const std::string&)> failed)
@@ -27,6 +28,8 @@ void JpegDecoder::put(JpegImagePtr picture) {
   {
     const std::lock_guard lock(mutex_);
     const std::string camera = picture->frame;
+    if (waiting_.size() >= kMostCameras && !waiting_.contains(camera))
+      waiting_.erase(waiting_.begin());
     waiting_[camera] = std::move(picture);
   }
   wake_.notify_one();

@@ -119,6 +119,7 @@ QString ThermalTile::refusal() const {
     return tr("picture damaged: %1 of %2 pixels")
         .arg(image->counts.size())
         .arg(image->width * image->height);
+  if (image->agc) return tr("AGC is on: shades are contrast, no temperatures");
   if (!hasTemperatures(*image)) return tr("not TLinear: shades are no temperatures");
   if (image->ffc == FfcState::Running) return tr("shutter closed: the camera calibrates itself");
   const double frozen_s = models_.thermal.frozenS();

@@ -3,6 +3,7 @@
 #include <QMouseEvent>
 #include <QPainter>
 
+#include "gui/widgets/age_badge.h"
 #include "gui/widgets/text.h"
 
 namespace kiln::gui {
@@ -72,7 +73,7 @@ void LayerPanel::paintEvent(QPaintEvent*) {
     const QRect text = r.adjusted(kMargin_px + 2 * kDot_px + 2, 0, -kMargin_px, 0);
     painter.drawText(text, Qt::AlignVCenter | Qt::AlignLeft, QString::fromStdString(spec.label));
     const QString note = layer.freshness == Freshness::Missing ? tr("none")
-                         : old ? tr("%1 s old").arg(layer.age_s, 0, 'f', 1)
+                         : old ? tr("%1 old").arg(ageText(layer.age_s))
                                : QString();
     painter.drawText(text, Qt::AlignVCenter | Qt::AlignRight, note);
   }

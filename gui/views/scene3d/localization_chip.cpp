@@ -5,6 +5,7 @@
 #include <QStringList>
 #include <algorithm>
 
+#include "gui/widgets/age_badge.h"
 #include "gui/widgets/fitted_text.h"
 #include "gui/widgets/text.h"
 
@@ -43,7 +44,7 @@ QString LocalizationChip::title() const {
 QString LocalizationChip::detail() const {
   const LocalizationStatus* status = model_.status();
   if (!status) return tr("the robot has not told where it is");
-  if (mark() == Mark::Unknown) return tr("last heard %1 s ago").arg(model_.ageS(), 0, 'f', 1);
+  if (mark() == Mark::Unknown) return tr("last heard %1 ago").arg(ageText(model_.ageS()));
   if (status->health != LocalizationHealth::Good && !status->reason.empty())
     return QString::fromStdString(status->reason);
   QStringList words;

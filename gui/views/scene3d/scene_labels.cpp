@@ -6,6 +6,7 @@
 
 #include "gui/views/scene3d/orbit_camera.h"
 #include "gui/views/scene3d/scene_actor.h"
+#include "gui/widgets/age_badge.h"
 
 namespace kiln::gui {
 namespace {
@@ -74,7 +75,7 @@ void paintGhostText(QPainter& painter, const SceneSnapshot& snapshot, const Orbi
   const Eigen::Vector3d above(snapshot.X_map_base.x_m, snapshot.X_map_base.y_m, 1.9);
   const auto p = camera.project(above, size.width(), size.height());
   if (!p) return;
-  const QString text = QStringLiteral("last heard %1 s").arg(robot.age_s, 0, 'f', 1);
+  const QString text = QStringLiteral("last heard %1 ago").arg(ageText(robot.age_s));
   painter.setFont(scaled(painter.font(), 1.1, true));
   const QFontMetricsF metrics(painter.font());
   const QRectF box(p->x() - 0.5 * metrics.horizontalAdvance(text) - kPadding,

@@ -12,6 +12,18 @@ double ageOf(Stamp stamp, Stamp now) { return toSeconds(now - stamp); }
 
 }  // namespace
 
+namespace {
+
+/// What helps when this image is refused.
+std::string adviceFor(const ThermalImage& image) {
+  if (image.agc) return "switch AGC off in the camera";
+  if (!image.tlinear) return "switch telemetry and TLinear on in the camera";
+  // Each closing of the shutter spoils some pictures in a row.
+  return "wait for the shutter; else start the camera anew";
+}
+
+}  // namespace
+
 void HeatTask::Config::visit(ConfigArchive& a) {
   a.section("detector", detector, "thermal picture");
   a.section("localizer", localizer, "heat source over a sweep");
@@ -45,6 +57,7 @@ std::vector<HeatTask::Result> HeatTask::take() {
     refusal_ = result.detections.usable            ? ""
                : result.detections.refusal.empty() ? "its pictures are refused"
                                                    : result.detections.refusal;
+    advice_ = adviceFor(*result.image);
     if (result.detections.usable) last_usable_ = result.detections.stamp;
   }
   return results;
@@ -71,9 +84,8 @@ std::vector<Check> HeatTask::checks(Stamp now) const {
       camera.action = "restart it; if it stays, synchronise its clock with the robot's";
     } else if (!refusal_.empty() &&
                (!last_usable_ || ageOf(*last_usable_, now) > config_.image_age_s)) {
-      // Each closing of the shutter spoils some pictures in a row.
       camera.detail = refusal_;
-      camera.action = "wait for the shutter; else start the camera anew";
+      camera.action = advice_;
     } else {
       camera.ok = true;
       camera.action.clear();

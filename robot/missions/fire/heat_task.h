@@ -52,7 +52,7 @@ class HeatTask {
   BoundedQueue<ThermalImagePtr> images_{4, DropPolicy::Oldest};
   BoundedQueue<Result> results_{8, DropPolicy::Oldest};
   std::optional<Stamp> last_image_, last_detection_, last_usable_;
-  std::string refusal_;  ///< of the newest image; empty: it was usable
+  std::string refusal_, advice_;  ///< of the newest image; empty: it was usable
   std::uint64_t refused_jobs_ = 0;
 };
 

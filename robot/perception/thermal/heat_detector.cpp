@@ -64,10 +64,9 @@ std::string HeatDetector::Impl::refuse(const ThermalImage& image) {
     return fmt::format("thermal frame has {} values for {} x {} pixels; check the camera's format",
                        image.counts.size(), image.width, image.height);
   }
-  if (image.agc)
-    return "AGC is on: the picture shows contrast, not temperatures; switch AGC off in the camera";
+  if (image.agc) return "AGC is on: the picture shows contrast, not temperatures";
   if (!image.tlinear || !(image.kelvin_per_count > 0)) {
-    return "no TLinear telemetry: counts cannot be read as kelvin; switch TLinear on in the camera";
+    return "no TLinear telemetry: counts cannot be read as kelvin";
   }
   if (image.ffc == FfcState::Running)
     return "frozen: the camera's shutter is closed for its flat-field correction";

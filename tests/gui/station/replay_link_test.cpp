@@ -4,6 +4,7 @@
 #include <QImage>
 #include <QTemporaryDir>
 #include <QTest>
+#include <filesystem>
 
 #include <gtest/gtest.h>
 
@@ -18,6 +19,7 @@
 #include "gui/views/camera/camera_tile.h"
 #include "gui/views/log/log_view.h"
 #include "gui/views/timeline/timeline_view.h"
+#include "tests/support/data_dir.h"
 
 namespace kiln::gui {
 namespace {
@@ -39,7 +41,7 @@ std::vector<std::uint8_t> smallJpeg() {
 }
 
 /// One minute of statuses whose sequence number is the tenth of a second since the start.
-class ReplayLinkTest : public testing::Test {
+class ReplayLinkTest : public ::testing::Test {
  protected:
   ReplayLinkTest() {
     auto writer = RecordWriter::create(file());
@@ -232,6 +234,30 @@ TEST(ReplayLink, AFileThatIsNoRecordingIsRefusedWithASentence) {
   const auto missing = ReplayLink::open("/nowhere/run.mcap");
   ASSERT_FALSE(missing.has_value());
   EXPECT_NE(missing.error().message.find("run.mcap"), std::string::npos);
+}
+
+TEST(RecordingsOnDisk, OpenOrSayWhyNot) {
+  const auto cases = kiln::testing::dataFile("../cases/mcap");
+  if (!cases) GTEST_SKIP() << "no cases here: set KILN_DATA_DIR";
+  for (const auto& entry : std::filesystem::directory_iterator(*cases)) {
+    const std::string name = entry.path().filename().string();
+    const auto link = ReplayLink::open(entry.path().string());
+    ASSERT_EQ(link.has_value(), name != "another_robot.mcap")
+        << name << ": " << (link ? "opened" : link.error().message);
+    if (!link) {
+      EXPECT_NE(link.error().message.find("a recording of another robot"), std::string::npos);
+      continue;
+    }
+    const Playback& playback = (*link)->playback();
+    EXPECT_LT(toSeconds(playback.end - playback.start), 3.0) << name;
+    (*link)->open();  // a damaged chunk is named when it is come to
+    const bool damaged = name == "cut_half.mcap" || name == "first_chunk_damaged.mcap" ||
+                         name == "one_message_at_zero.mcap";
+    (void)QTest::qWaitFor(
+        [&] { return playback.ended || (damaged && !playback.problem.isEmpty()); }, kPatience_ms);
+    EXPECT_EQ(!playback.problem.isEmpty(), damaged) << name << playback.problem.toStdString();
+    (*link)->close();
+  }
 }
 
 }  // namespace

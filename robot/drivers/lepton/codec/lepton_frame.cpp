@@ -22,6 +22,19 @@ Result<LeptonFrame> splitFrame(int width, int height, std::vector<std::uint16_t>
   return out;
 }
 
+std::string whyNoTemperatures(const LeptonFrame& frame) {
+  if (!frame.telemetry)
+    return "no telemetry, so nothing says that its values are temperatures; record with telemetry "
+           "as footer (160 x 122) or as .tjsn";
+  if (frame.telemetry->agc)
+    return "AGC was on, so its values are contrast, not temperatures; switch AGC off in the camera";
+  if (!frame.telemetry->tlinear)
+    return "TLinear was off, so its values are no temperatures; switch TLinear on in the camera";
+  if (frame.telemetry->ffc == FfcState::Running)
+    return "taken while the shutter was closed, so it shows the shutter; take another one";
+  return {};
+}
+
 ThermalImage toThermalImage(const LeptonFrame& frame) {
   ThermalImage out;
   out.width = frame.width;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "robot/drivers/lepton/codec/lepton_telemetry.h"
@@ -17,6 +18,7 @@ struct LeptonFrame {
   int height = kHeight;
   std::vector<std::uint16_t> counts;  ///< row-major, width * height
   std::optional<LeptonTelemetry> telemetry;
+  std::size_t pages = 1;  ///< of its file; this is the first one
 };
 
 /// Splits a Y16 picture: 160 x 122 carries four telemetry lines (A, B | C, reserved) in its last
@@ -24,6 +26,9 @@ struct LeptonFrame {
 /// else parseTelemetry's.
 [[nodiscard]] Result<LeptonFrame> splitFrame(int width, int height,
                                              std::vector<std::uint16_t> words);
+
+/// Why a frame cannot be read as temperatures, and what helps; empty: it can.
+[[nodiscard]] std::string whyNoTemperatures(const LeptonFrame& frame);
 
 /// The value type. Without telemetry nothing says that counts are temperatures: `tlinear` is false,
 /// the frame can be looked at but not measured in. Stamp and seq are the caller's.

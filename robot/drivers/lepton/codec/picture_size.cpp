@@ -39,13 +39,32 @@ std::optional<PictureSize> tiffSize(std::string_view bytes) {
   return size;
 }
 
+bool isTiff(std::string_view bytes) {
+  using namespace std::string_view_literals;
+  return bytes.starts_with("II*\0"sv) || bytes.starts_with("MM\0*"sv);
+}
+
 }  // namespace
 
 std::optional<PictureSize> pictureSize(std::string_view bytes) {
   if (bytes.starts_with("\x89PNG\r\n\x1a\n")) return pngSize(bytes);
-  using namespace std::string_view_literals;
-  if (bytes.starts_with("II*\0"sv) || bytes.starts_with("MM\0*"sv)) return tiffSize(bytes);
+  if (isTiff(bytes)) return tiffSize(bytes);
   return std::nullopt;
+}
+
+std::size_t pictureCount(std::string_view bytes) {
+  if (!isTiff(bytes) || bytes.size() < 8) return 1;
+  constexpr std::size_t kMost = 1000;  // a chain that leads back into itself ends too
+  const bool big = bytes[0] == 'M';
+  std::size_t pages = 0;
+  for (std::size_t page = number(bytes, 4, 4, big); page != 0 && pages < kMost;) {
+    if (page > bytes.size() || bytes.size() - page < 2) break;
+    ++pages;
+    const std::size_t next = page + 2 + 12 * std::size_t{number(bytes, page, 2, big)};
+    if (next > bytes.size() || bytes.size() - next < 4) break;
+    page = number(bytes, next, 4, big);
+  }
+  return pages == 0 ? 1 : pages;
 }
 
 }  // namespace kiln::lepton

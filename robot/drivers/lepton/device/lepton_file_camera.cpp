@@ -54,10 +54,12 @@ Result<std::unique_ptr<LeptonFileCamera>> LeptonFileCamera::open(const std::stri
     const auto frame = lepton::readStill(name);
     if (!frame) return tl::make_unexpected(frame.error());
     player->images.push_back(lepton::toThermalImage(*frame));
-    if (!frame->telemetry) {
+    if (const std::string why = lepton::whyNoTemperatures(*frame); !why.empty())
+      logger("driver.lepton")->warn("{}: shown only: {}", name, why);
+    if (frame->pages > 1)
       logger("driver.lepton")
-          ->warn("{}: no TLinear telemetry; shown, but not read as temperatures", name);
-    }
+          ->warn("{}: has {} pages, the first is shown; save each as a file of its own", name,
+                 frame->pages);
   }
   player->names = std::move(*names);
   executor.every(fromSeconds(1.0 / config.rate_hz), "io.thermal", kPriority,

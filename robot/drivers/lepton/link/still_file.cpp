@@ -29,29 +29,34 @@ bool isPicture(const fs::path& path) {
   return e == ".png" || e == ".tif" || e == ".tiff";
 }
 
-Result<LeptonFrame> readPicture(const std::string& path, const std::string& bytes) {
+Result<LeptonFrame> readPicture(const std::string& bytes) {
   const auto size = pictureSize(bytes);  // before memory is taken for it
-  if (!size)
-    return makeError(ErrorCode::InvalidInput, "{}: is not a readable picture (cut off?)", path);
+  if (!size) return makeError(ErrorCode::InvalidInput, "is not a readable picture (cut off?)");
   if (size->width > kLongestSide_px || size->height > kLongestSide_px)
-    return makeError(ErrorCode::InvalidInput, "{}: says {} x {} pixels; no thermal camera has them",
-                     path, size->width, size->height);
+    return makeError(ErrorCode::InvalidInput, "says {} x {} pixels; no thermal camera has them",
+                     size->width, size->height);
   cv::Mat picture;
   try {
     picture = cv::imdecode(
         cv::Mat(1, static_cast<int>(bytes.size()), CV_8U, const_cast<char*>(bytes.data())),
         cv::IMREAD_UNCHANGED);
   } catch (const cv::Exception& e) {
-    return makeError(ErrorCode::InvalidInput, "{}: cannot be decoded ({})", path, e.err);
+    return makeError(ErrorCode::InvalidInput, "cannot be decoded ({})", e.err);
   }
   if (picture.empty())
-    return makeError(ErrorCode::InvalidInput, "{}: is not a readable picture (cut off?)", path);
+    return makeError(ErrorCode::InvalidInput, "is not a readable picture (cut off?)");
   if (picture.type() != CV_16UC1) {
     return makeError(ErrorCode::InvalidInput,
-                     "{}: is not 16-bit greyscale; export the camera's Y16 words", path);
+                     "is not 16-bit greyscale; export the camera's Y16 words");
   }
   std::vector<std::uint16_t> words(picture.begin<std::uint16_t>(), picture.end<std::uint16_t>());
-  return splitFrame(picture.cols, picture.rows, std::move(words));
+  auto frame = splitFrame(picture.cols, picture.rows, std::move(words));
+  if (frame) frame->pages = pictureCount(bytes);
+  if (frame || frame.error().code != ErrorCode::VersionMismatch) return frame;
+  return makeError(ErrorCode::VersionMismatch,
+                   "the last two lines of its {} x {} pixels are no telemetry; record with "
+                   "telemetry as footer, cut them off, or take it out of the folder",
+                   picture.cols, picture.rows);
 }
 
 }  // namespace
@@ -59,14 +64,13 @@ Result<LeptonFrame> readPicture(const std::string& path, const std::string& byte
 Result<LeptonFrame> readStill(const std::string& path) {
   const auto bytes = readRegularFile(path, kLargestFile);
   if (!bytes) return tl::make_unexpected(bytes.error());
-  if (isPicture(path)) return readPicture(path, *bytes);
-  auto frame = parseTjsn(*bytes);
-  if (!frame) {
-    return tl::make_unexpected(
-        Error{frame.error().code,
-              fmt::format("{}: {}; take it out of the folder", path, frame.error().message)});
-  }
-  return frame;
+  auto frame = isPicture(path) ? readPicture(*bytes) : parseTjsn(*bytes);
+  if (frame) return frame;
+  const std::string& message = frame.error().message;
+  const bool advised = message.find(';') != std::string::npos;
+  return tl::make_unexpected(
+      Error{frame.error().code,
+            fmt::format("{}: {}{}", path, message, advised ? "" : "; take it out of the folder")});
 }
 
 Result<std::vector<std::string>> listStills(const std::string& folder) {
@@ -78,6 +82,7 @@ Result<std::vector<std::string>> listStills(const std::string& folder) {
   std::vector<std::string> out;
   for (const auto& entry : fs::directory_iterator(folder, ec)) {
     const fs::path& path = entry.path();
+    if (path.filename().string().starts_with('.')) continue;  // "._a.png" of other systems
     const bool tjsn = extensionOf(path) == ".tjsn";
     if (!tjsn && !isPicture(path)) continue;
     if (!tjsn && fs::exists(fs::path(path).replace_extension(".tjsn"), ec)) continue;

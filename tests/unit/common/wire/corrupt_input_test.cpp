@@ -127,6 +127,31 @@ TEST(CorruptInput, ResolutionsThatCannotBeAreRefused) {
   }
 }
 
+TEST(CorruptInput, ListsThatNobodyCouldShowAreRefusedByTheirCount) {
+  Scene scene;
+  scene.items.resize(2000);
+  EXPECT_TRUE(decodeScene(encode(scene)).has_value());
+  scene.items.resize(2001);
+  const auto items = decodeScene(encode(scene));
+  ASSERT_FALSE(items.has_value());
+  EXPECT_THAT(items.error().message, HasSubstr("2001 rows of items are more than 2000"));
+  scene.items.resize(1);
+  scene.items[0].points.resize(2001);  // however deep
+  EXPECT_FALSE(decodeScene(encode(scene)).has_value());
+
+  RobotStatus status;
+  status.operators.resize(2001);  // texts too
+  EXPECT_FALSE(decodeRobotStatus(encode(status)).has_value());
+
+  FsmInfo graph;
+  graph.states.resize(256);
+  EXPECT_TRUE(decodeFsmInfo(encode(graph)).has_value());
+  graph.states.resize(257);
+  const auto states = decodeFsmInfo(encode(graph));
+  ASSERT_FALSE(states.has_value());
+  EXPECT_THAT(states.error().message, HasSubstr("257 states are more than 256"));
+}
+
 TEST(CorruptInput, CutFramesSaySo) {
   const std::string packed = compress(std::string(1000, 'x'));
   const auto cut =

@@ -110,5 +110,18 @@ TEST(StillFile, RadiometricTiffOfAnotherCameraIsNotLinear) {
   EXPECT_FALSE(toThermalImage(*frame).tlinear);
 }
 
+TEST(LeptonFrame, SaysWhyItHoldsNoTemperaturesAndWhatHelps) {
+  LeptonFrame frame;
+  EXPECT_NE(whyNoTemperatures(frame).find("record with telemetry"), std::string::npos);
+  frame.telemetry.emplace();
+  EXPECT_NE(whyNoTemperatures(frame).find("switch TLinear on"), std::string::npos);
+  frame.telemetry->tlinear = true;
+  EXPECT_EQ(whyNoTemperatures(frame), "");
+  frame.telemetry->ffc = FfcState::Running;
+  EXPECT_NE(whyNoTemperatures(frame).find("shutter was closed"), std::string::npos);
+  frame.telemetry->agc = true;
+  EXPECT_NE(whyNoTemperatures(frame).find("switch AGC off"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace kiln::lepton

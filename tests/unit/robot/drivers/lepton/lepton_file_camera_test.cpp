@@ -88,6 +88,42 @@ TEST_F(LeptonFileCameraTest, APictureThatClaimsToBeHugeIsRefusedByItsHeader) {
   }
 }
 
+TEST_F(LeptonFileCameraTest, PassesHiddenFilesOver) {
+  addPng("a.png", 1);
+  std::ofstream(folder_ / "._a.png") << "Mac OS X        ";
+  const auto camera = LeptonFileCamera::open(folder_.string(), executor_);
+  ASSERT_TRUE(camera.has_value()) << camera.error();
+  EXPECT_THAT((*camera)->stills(), ::testing::ElementsAre((folder_ / "a.png").string()));
+}
+
+TEST_F(LeptonFileCameraTest, EachRefusalNamesTheFileAndOneThingToDo) {
+  const std::string path = (folder_ / "frame.png").string();
+  cv::imwrite(path, cv::Mat(122, 160, CV_16UC1, cv::Scalar(0)));
+  EXPECT_THAT(LeptonFileCamera::open(folder_.string(), executor_).error().message,
+              ::testing::AllOf(HasSubstr(path + ": "), HasSubstr("160 x 122"),
+                               HasSubstr("record with telemetry as footer")));
+  std::ofstream(path, std::ios::trunc) << "no picture";
+  EXPECT_THAT(LeptonFileCamera::open(folder_.string(), executor_).error().message,
+              ::testing::AllOf(HasSubstr(path + ": "), HasSubstr("take it out of the folder")));
+}
+
+TEST_F(LeptonFileCameraTest, CountsThePagesOfATiff) {
+  const std::string path = (folder_ / "three.tiff").string();
+  const std::vector<cv::Mat> pages{cv::Mat(120, 160, CV_16UC1, cv::Scalar(1)),
+                                   cv::Mat(120, 160, CV_16UC1, cv::Scalar(2)),
+                                   cv::Mat(120, 160, CV_16UC1, cv::Scalar(3))};
+  cv::imwrite(path, pages);
+  const auto frame = lepton::readStill(path);
+  ASSERT_TRUE(frame.has_value()) << frame.error();
+  EXPECT_EQ(frame->pages, 3u);
+  EXPECT_EQ(frame->counts[0], 1);
+
+  // A chain of pages that leads back into itself.
+  using namespace std::string_view_literals;
+  EXPECT_EQ(lepton::pictureCount("II*\0\x08\0\0\0\0\0\x08\0\0\0"sv), 1000u);
+  EXPECT_EQ(lepton::pictureCount("II*\0\xff\xff\xff\xff"sv), 1u);
+}
+
 TEST_F(LeptonFileCameraTest, RefusesEightBitPictures) {
   cv::imwrite((folder_ / "photo.png").string(), cv::Mat(120, 160, CV_8UC1, cv::Scalar(7)));
   EXPECT_THAT(LeptonFileCamera::open(folder_.string(), executor_).error().message,

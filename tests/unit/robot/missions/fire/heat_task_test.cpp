@@ -14,11 +14,13 @@ struct Watched {
   HeatTask task{HeatTask::Config{}, executor};
   std::uint64_t seq = 0;
 
-  void image(bool work = true) {
+  void image(bool work = true, bool agc = false, bool tlinear = true) {
     auto image = std::make_shared<ThermalImage>();
     image->stamp = clock.now();
     image->seq = image->frame_counter = static_cast<std::uint32_t>(++seq);
     image->counts.assign(160 * 120, 29815);
+    image->agc = agc;
+    image->tlinear = tlinear;
     task.onThermal(image);
     task.dispatch();
     if (work) executor.runUntil(clock.now() + std::chrono::milliseconds(50));
@@ -72,6 +74,16 @@ TEST(HeatTask, ARefusedPictureIsToldOnceTheShutterCannotBeTheReason) {
   for (int i = 0; i < 20; ++i) frozen();
   EXPECT_FALSE(w.row(0).ok);
   EXPECT_NE(w.row(0).action.find("shutter"), std::string::npos);
+}
+
+TEST(HeatTask, ItsAdviceFitsTheReason) {
+  Watched w;
+  w.image(true, true);
+  EXPECT_NE(w.row(0).detail.find("AGC is on"), std::string::npos);
+  EXPECT_EQ(w.row(0).action, "switch AGC off in the camera");
+  w.image(true, false, false);
+  EXPECT_NE(w.row(0).detail.find("no TLinear"), std::string::npos);
+  EXPECT_EQ(w.row(0).action, "switch telemetry and TLinear on in the camera");
 }
 
 TEST(HeatTask, ACameraFromTheFutureHasAWrongClock) {
