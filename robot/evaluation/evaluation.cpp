@@ -14,6 +14,10 @@ const EvaluationOption kCalibrate{
     "calibrate the sensors of each seed's robot first (default; kept in "
     "~/.cache/kiln/calibration), or drive with nominal mountings",
     &SweepOptions::calibrate};
+const EvaluationOption kBlueprint{
+    "--blueprint",
+    "a blueprint file instead of random ones; its orders are told brick by brick",
+    {}};
 const EvaluationOption kOut{"--out", "where the result is written", &SweepOptions::out};
 
 }  // namespace
@@ -60,6 +64,12 @@ const std::vector<Evaluation>& evaluations() {
        "random moments and three on the approach to the building",
        evaluateResume,
        {1, 10}},
+      {"build-order",
+       "optimal, greedy and fastest build orders of 1,000 random blueprints (--seeds), or of one "
+       "file, over reach windows from 0.9 to 1.5 m; no world",
+       evaluateBuildOrder,
+       {1, 1000},
+       {kBlueprint}},
       {"calibrate",
        "finds the mounting of LiDAR and thermal camera by moving the arm; --out FILE is for "
        "kiln-robotd --calibration",
