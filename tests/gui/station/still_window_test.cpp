@@ -1,16 +1,20 @@
 // Whatever a robot says, no control that a hand may be on its way to moves by a pixel.
-#include <QScrollArea>
 #include <QSlider>
 #include <QTest>
 #include <QToolButton>
-#include <cmath>
+#include <algorithm>
 #include <limits>
+#include <map>
 
 #include <gtest/gtest.h>
 
+#include "common/wire/fire/codec/fire_codec.h"
 #include "gui/app/main_window.h"
 #include "gui/app/tile_layout.h"
+#include "gui/panels/fire/place_panel.h"
+#include "gui/views/alarm_strip/alarm_list.h"
 #include "gui/views/macros/macros_tile.h"
+#include "gui/views/scene3d/scene_tile.h"
 #include "gui/views/state_card/state_card.h"
 #include "gui/views/teleop/jog_pad.h"
 #include "gui/views/teleop/teleop_tile.h"
@@ -21,7 +25,8 @@
 namespace kiln::gui {
 namespace {
 
-constexpr int kName = 64, kSentence = 200;  // characters; what comes over the wire is longer at no place
+constexpr int kName = 64,
+              kSentence = 200;  // characters; what comes over the wire is longer at no place
 
 /// Words of `length` characters, none of them wider than a line.
 std::string words(int length) {
@@ -61,9 +66,7 @@ class Speaker {
     const int kind = kind_++;
     return only_ < 0 || only_ == kind;
   }
-  void set(std::string& text, int length) const {
-    text = most_ ? words(length) : std::string();
-  }
+  void set(std::string& text, int length) const { text = most_ ? words(length) : std::string(); }
   void status() {
     RobotStatus s = link_.robot().status();
     if (mine()) set(s.reason, kSentence);
@@ -182,8 +185,7 @@ class StillWindowTest : public testing::TestWithParam<QSize> {
     }
   }
   void note(Places& places, const QString& name, const QWidget& control) const {
-    if (control.isVisible())
-      places[name] = QRect(control.mapTo(&window, QPoint()), control.size());
+    if (control.isVisible()) places[name] = QRect(control.mapTo(&window, QPoint()), control.size());
   }
   [[nodiscard]] Places places() const {
     Places out;
@@ -253,7 +255,10 @@ TEST_P(StillWindowTest, InAutonomy) {
 
 TEST_P(StillWindowTest, WithFourWaysOut) {
   link.robot().startMission();
-  for (int i = 0; i < 600 && window.stateCard()->exits().size() < 4; ++i) pass(0.3);
+  for (int i = 0; i < 200 && window.stateCard()->exits().size() < 4; ++i) {
+    link.advance(1.0);
+    pass(0.1);
+  }
   ASSERT_EQ(window.stateCard()->exits().size(), 4U);
   expectStillWhateverIsSaid("four ways out", 28);
 }
@@ -284,10 +289,64 @@ TEST_P(StillWindowTest, BeforeAStartWhateverTheChecksSay) {
   const auto before = places();
   for (const int length : {0, 20, 200}) {
     link.robot().checks[1] = {"LiDAR", length == 0, words(length), words(length)};
-    link.robot().checks[2] = {words(40), length < 200, words(length), words(length), length > 0};
+    link.robot().checks[2] = {words(40), length<200, words(length), words(length), length> 0};
     pass(0.5);
     expectStill(before, "checks of " + std::to_string(length));
   }
+}
+
+TEST_P(StillWindowTest, WhicheverStateAJumpIsAskedFor) {
+  link.robot().startMission();
+  pass(1.0);
+  ASSERT_TRUE(window.forcedJump().arm());
+  pass(0.1);
+  const Places armed = places();
+  int picked = 0;
+  for (const FsmStateInfo& state : models.fsm.info()->states) {
+    if (!window.forcedJump().pick(QString::fromStdString(state.name))) continue;
+    pass(0.1);
+    expectStill(armed, "jump to " + state.name);
+    ++picked;
+  }
+  EXPECT_GT(picked, 3);
+}
+
+TEST_P(StillWindowTest, WhateverThePlaceCardSays) {
+  link.robot().startMission();
+  pass(1.0);
+  window.tileLayout().bringToFront(*window.sceneTile());
+  PlacePanel* card = nullptr;
+  for (SceneCard* any : window.sceneTile()->cards())
+    if (auto* found = dynamic_cast<PlacePanel*>(any)) card = found;
+  ASSERT_NE(card, nullptr);
+  card->toggle();
+  pass(0.2);
+  ASSERT_TRUE(card->isVisible());
+  const Places before = places();
+  const auto still = [&](const std::string& what) {
+    pass(0.2);
+    expectStill(before, what);
+  };
+  card->nudge().add(0.02, -0.02, 0.01);
+  still("a wish");
+  card->nudge().confirm();
+  still("an answer");
+  Scene scene = link.robot().scene();
+  auto site = wire::decodeFireSite(scene.detail.data);
+  ASSERT_TRUE(site);
+  ASSERT_FALSE(site->places.empty());
+  for (const FirePlaceInfo& place : site->places) {
+    PlaceCheck check;
+    check.place = place.name;
+    check.verdict = PlaceVerdict::Misplaced;
+    check.reason = words(kSentence);
+    site->place_checks.push_back(check);
+  }
+  scene.detail = wire::encodeDetail(*site);
+  emit link.scene(std::make_shared<const Scene>(scene));
+  still("a long reason");
+  card->nudge().cancel();
+  still("no wish");
 }
 
 /// Neither the jog keys' own words nor the speed's.
