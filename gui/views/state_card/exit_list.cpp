@@ -11,9 +11,9 @@ namespace kiln::gui {
 
 namespace {
 constexpr int kGap_px = 5;
-constexpr int kWide_px = 48;  // title and two lines, over the whole width
+constexpr int kWide_px = 57;  // title and two lines, over the whole width
 constexpr int kTall_px = 84;  // title and four lines, over half of it
-constexpr int kTitle_px = 30, kStrip_px = 30;
+constexpr int kTitle_px = 30, kStrip_px = 36;
 constexpr int kNarrow_pct = 85, kNarrowest_pct = 72;
 }  // namespace
 
@@ -43,10 +43,15 @@ void ExitList::setExits(const std::vector<Exit>& exits) {
   setLock(lock_);
 }
 
-void ExitList::setTall(bool tall) {
-  if (tall == tall_) return;
-  tall_ = tall;
+void ExitList::setRoom(Room room) {
+  if (room == room_) return;
+  room_ = room;
   arrange();
+}
+
+bool ExitList::strip() const {
+  const std::size_t whole = room_ == Room::Tall ? kMost : room_ == Room::Middle ? 2 : 1;
+  return exits_.size() > whole;
 }
 
 void ExitList::setLock(const QString& why) {
@@ -62,8 +67,8 @@ void ExitList::setLock(const QString& why) {
 /// Rows of half width where each is too low for its words, else of the whole width.
 void ExitList::arrange() {
   const int count = static_cast<int>(buttons_.size());
-  const int columns = count > 2 ? 2 : 1;
-  const int row_px = columns == 1 ? kWide_px : tall_ ? kTall_px : kTitle_px;
+  const int columns = count > 2 || strip() ? 2 : 1;
+  const int row_px = columns == 1 ? kWide_px : strip() ? kTitle_px : kTall_px;
   const int rows = (count + columns - 1) / columns;
   for (int n = 0; n < count; ++n) {
     const bool alone = n == count - 1 && n % columns == 0;

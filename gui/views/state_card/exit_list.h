@@ -8,9 +8,9 @@
 namespace kiln::gui {
 
 /// The ways out of a state as buttons. How high the block is and where its buttons stand follows
-/// from their number and from the room alone, never from their words. Up to two have what the robot
-/// will do then on them; of more, a strip below tells it of the one that the pointer or the
-/// keyboard is on, unless there is room enough.
+/// from their number and from the room alone, never from their words. What the robot will do then
+/// stands on them where there is room; else a strip below tells it of the one that the pointer or
+/// the keyboard is on.
 class ExitList : public QWidget {
   Q_OBJECT
  public:
@@ -20,8 +20,9 @@ class ExitList : public QWidget {
   };
   explicit ExitList(const Ui& ui, QWidget* parent = nullptr);
   void setExits(const std::vector<Exit>& exits);
-  /// Room for all words of four.
-  void setTall(bool tall);
+  /// For the words of one, of two, of all.
+  enum class Room { Low, Middle, Tall };
+  void setRoom(Room room);
   /// @param why  why none can be taken now; empty: they can.
   void setLock(const QString& why);
   [[nodiscard]] const std::vector<ActButton*>& buttons() const { return buttons_; }
@@ -39,14 +40,14 @@ class ExitList : public QWidget {
   void resizeEvent(QResizeEvent* event) override;
 
  private:
-  [[nodiscard]] bool strip() const { return exits_.size() > 2 && !tall_; }
+  [[nodiscard]] bool strip() const;
   void arrange();
   [[nodiscard]] FittedText fitted() const;
   Ui ui_;
   std::vector<Exit> exits_;
   std::vector<ActButton*> buttons_;
   const ActButton* pointed_ = nullptr;
-  bool tall_ = false;
+  Room room_ = Room::Low;
   QString lock_;
 };
 

@@ -9,9 +9,10 @@
 namespace kiln::gui {
 
 namespace {
-constexpr int kTall_px = 380;   // room for all words of the exits
-constexpr int kTight_px = 200;  // no room for exits; they are in the graph
-constexpr int kRow_px = 18;     // less of a list is nothing
+constexpr int kTall_px = 380;    // room for all words of the exits
+constexpr int kMiddle_px = 240;  // room for those of two
+constexpr int kTight_px = 200;   // no room for exits; they are in the graph
+constexpr int kRow_px = 18;      // less of a list is nothing
 constexpr double kInputAmber_s = 0.5;
 constexpr double kInputRed_s = 2.0;
 constexpr double kInputShown_s = 0.005;
@@ -166,7 +167,9 @@ void StateCard::refresh() {
 
 void StateCard::resizeEvent(QResizeEvent* event) {
   Tile::resizeEvent(event);
-  exits_->setTall(height() >= kTall_px);
+  exits_->setRoom(height() >= kTall_px     ? ExitList::Room::Tall
+                  : height() >= kMiddle_px ? ExitList::Room::Middle
+                                           : ExitList::Room::Low);
   refreshExits();
 }
 

@@ -184,28 +184,29 @@ class StillWindowTest : public testing::TestWithParam<QSize> {
       emit models.aged();
     }
   }
-  void note(Places& places, const QString& name, const QWidget& control) const {
-    if (control.isVisible()) places[name] = QRect(control.mapTo(&window, QPoint()), control.size());
-  }
+  /// Those of a class are told apart by where they stand: some are made anew for other words.
   [[nodiscard]] Places places() const {
-    Places out;
-    note(out, "STOP", *window.topBar()->stopButton());
-    int n = 0;
-    for (const ActButton* exit : window.stateCard()->exits())
-      note(out, QStringLiteral("exit %1").arg(n++), *exit);
-    const auto isExit = [&](const QWidget* w) {
-      const auto& exits = window.stateCard()->exits();
-      return std::find(exits.begin(), exits.end(), w) != exits.end();
+    std::map<QString, std::vector<QRect>> by_class;
+    const auto note = [&](const QWidget& control, const QString& name) {
+      if (control.isVisible() && !window.alarmList()->isAncestorOf(&control))
+        by_class[name].emplace_back(control.mapTo(&window, QPoint()), control.size());
     };
-    n = 0;
-    for (const auto* button : window.findChildren<QAbstractButton*>())
-      if (!isExit(button) && !window.alarmList()->isAncestorOf(button))
-        note(out, QStringLiteral("%1 %2").arg(button->metaObject()->className()).arg(n++), *button);
-    n = 0;
-    for (const auto* pad : window.findChildren<JogPad*>())
-      note(out, QStringLiteral("pad %1").arg(n++), *pad);
-    for (const auto* slider : window.findChildren<QSlider*>())
-      note(out, QStringLiteral("slider %1").arg(n++), *slider);
+    const auto& exits = window.stateCard()->exits();
+    for (const auto* button : window.findChildren<QAbstractButton*>()) {
+      const bool exit = std::find(exits.begin(), exits.end(), button) != exits.end();
+      note(*button, exit ? QStringLiteral("exit") : button->metaObject()->className());
+    }
+    for (const auto* pad : window.findChildren<JogPad*>()) note(*pad, "pad");
+    for (const auto* slider : window.findChildren<QSlider*>()) note(*slider, "slider");
+    note(*window.topBar()->stopButton(), "STOP");
+    Places out;
+    for (auto& [name, rects] : by_class) {
+      std::sort(rects.begin(), rects.end(), [](const QRect& a, const QRect& b) {
+        return std::pair(a.y(), a.x()) < std::pair(b.y(), b.x());
+      });
+      for (std::size_t i = 0; i < rects.size(); ++i)
+        out[QStringLiteral("%1 %2").arg(name).arg(i)] = rects[i];
+    }
     return out;
   }
   void expectStill(const Places& before, const std::string& what) const {
@@ -216,7 +217,7 @@ class StillWindowTest : public testing::TestWithParam<QSize> {
         ADD_FAILURE() << what << ": " << name.toStdString() << " is gone";
         continue;
       }
-      EXPECT_EQ(found->second, place)
+      EXPECT_TRUE(found->second == place)
           << what << ": " << name.toStdString() << " moved by " << found->second.x() - place.x()
           << ", " << found->second.y() - place.y() << " px and grew by "
           << found->second.width() - place.width() << ", "
@@ -289,7 +290,7 @@ TEST_P(StillWindowTest, BeforeAStartWhateverTheChecksSay) {
   const auto before = places();
   for (const int length : {0, 20, 200}) {
     link.robot().checks[1] = {"LiDAR", length == 0, words(length), words(length)};
-    link.robot().checks[2] = {words(40), length<200, words(length), words(length), length> 0};
+    link.robot().checks[2] = {words(40), length != 200, words(length), words(length), true};
     pass(0.5);
     expectStill(before, "checks of " + std::to_string(length));
   }
@@ -357,10 +358,11 @@ TEST_P(StillWindowTest, WhateverTheJogPanelIsToldToDo) {
   for (QToolButton* mode : window.findChild<TeleopTile*>()->panel().findChildren<QToolButton*>()) {
     mode->click();
     pass(0.1);
-    Places now = places();
-    now.insert(before.begin(), before.end());  // the stick that goes up is hidden for a joint
-    for (const auto& [name, place] : before)
-      EXPECT_EQ(now[name], place) << mode->text().toStdString() << ": " << name.toStdString();
+    for (const auto& [name, place] : places()) {  // the stick that goes up is hidden for a joint
+      const bool known = std::any_of(before.begin(), before.end(),
+                                     [&](const auto& was) { return was.second == place; });
+      EXPECT_TRUE(known) << mode->text().toStdString() << ": " << name.toStdString() << " moved";
+    }
   }
 }
 
