@@ -14,23 +14,27 @@
 namespace kiln::gui {
 
 namespace {
-constexpr double kFullSpeed_mps = 1.0, kFullTurn_radps = 0.6;  // at 100 % of the speed scale
-constexpr double kReaction_s = 0.25;  // from what is true to the key that is let go
-constexpr double kBrake_mps2 = 1.5;
+constexpr double kReaction_s = 0.30;  // from what is true to the key that is let go
+constexpr double kBrake_mps2 = 1.5, kBrake_radps2 = 1.5;
 constexpr double kStill_mps = 0.03, kStill_s = 0.4;
+constexpr double kRate_s = 0.3;  // over which the eye judges how fast something changes
+constexpr double kDead = 0.4;    // of a tolerance: so far off no key is pressed
+constexpr double kStuck_s = 1.5, kAgain_s = 0.15;
 constexpr int kHandle_px = 14;
 
 double number(const QString& sign, const QString& digits) {
   return (sign == QStringLiteral("−") ? -1.0 : 1.0) * digits.toDouble();
 }
 
-/// What is left when the key is let go now.
-double runOut(double speed) { return kReaction_s * speed + 0.5 * speed * speed / kBrake_mps2; }
+/// Where it comes to rest when all keys are let go now.
+double atRest(double to_go, double closing, double brake) {
+  return to_go - closing * kReaction_s - closing * std::abs(closing) / (2.0 * brake);
+}
 }  // namespace
 
 std::optional<Pose2> Driver::pose() const {
   static const QRegularExpression kPose(
-      QStringLiteral("x ([+−])([0-9.]+) m\\s+y ([+−])([0-9.]+) m\\s+yaw ([+−])([0-9]+)°"));
+      QStringLiteral("x ([+−])([0-9.]+) m\\s*y ([+−])([0-9.]+) m\\s*yaw ([+−])([0-9]+)°"));
   const auto found = kPose.match(hand_.read<PoseChip>());
   if (!found.hasMatch()) return std::nullopt;
   return Pose2{number(found.captured(1), found.captured(2)),
@@ -72,42 +76,56 @@ int Driver::setSpeed(int percent) {
   hand_.drag(*slider, at(slider->value()), at(percent));
   hand_.look(0.5);  // the robot confirms it
   static const QRegularExpression kPercent(QStringLiteral("([0-9]+) %"));
-  percent_ = kPercent.match(hand_.read<TeleopTile>()).captured(1).toInt();
-  return percent_;
+  return kPercent.match(hand_.read<TeleopTile>()).captured(1).toInt();
 }
 
-void Driver::steer(const Pose2& to_go, const Tolerance& within) {
-  const double scale = 0.01 * percent_;
-  const double moving = std::min(kFullSpeed_mps * scale, speedMps().value_or(0.0) + 0.1);
-  const double stop_m = std::max(0.4 * within.m, runOut(moving));
-  const double stop_rad = std::max(0.4 * within.rad, kReaction_s * kFullTurn_radps * scale);
-  const auto press = [&](double error, double stop, char plus, char minus) {
-    hand_.key(plus, error > stop);
-    hand_.key(minus, error < -stop);
+void Driver::steer(const Tolerance& within) {
+  const Reading &then = read_.front(), &now = read_.back();
+  const double dt = std::max(1e-3, now.at_s - then.at_s);
+  const auto press = [&](double before, double to_go, double brake, double dead, char plus,
+                         char minus) {
+    const double rest = atRest(to_go, (before - to_go) / dt, brake);
+    hand_.key(plus, rest > dead);
+    hand_.key(minus, rest < -dead);
   };
-  press(to_go.x_m, stop_m, 'w', 's');
-  press(to_go.y_m, stop_m, 'a', 'd');
-  press(to_go.yaw_rad, stop_rad, 'q', 'e');
+  press(then.to_go.x_m, now.to_go.x_m, kBrake_mps2, kDead * within.m, 'w', 's');
+  press(then.to_go.y_m, now.to_go.y_m, kBrake_mps2, kDead * within.m, 'a', 'd');
+  press(then.to_go.yaw_rad, now.to_go.yaw_rad, kBrake_radps2, kDead * within.rad, 'q', 'e');
 }
 
 bool Driver::drive(const std::function<std::optional<Pose2>()>& to_go, const Tolerance& within,
                    double limit_s) {
-  QElapsedTimer timer, still;
+  QElapsedTimer timer, still, stuck;
   timer.start();
+  read_.clear();
   while (timer.elapsed() < 1000 * limit_s) {
     const auto left = to_go();
     const bool there = left && std::hypot(left->x_m, left->y_m) <= within.m &&
                        std::abs(left->yaw_rad) <= within.rad;
+    if (there && !within.rest) return true;  // on with the same keys
+    const bool moving = speedMps().value_or(1.0) > kStill_mps;
+    if (left) {
+      read_.push_back({1e-3 * double(timer.elapsed()), *left});
+      while (read_.size() > 2 && read_[1].at_s < read_.back().at_s - kRate_s) read_.pop_front();
+    }
     if (!left || there)
       hand_.letGo();
     else
-      steer(*left, within);
-    if (!there || speedMps().value_or(1.0) > kStill_mps)
+      steer(within);
+    if (there && !moving) {
+      if (!still.isValid()) still.start();
+      if (still.elapsed() > 1000 * kStill_s) return true;
+    } else {
       still.invalidate();
-    else if (!still.isValid())
-      still.start();
-    else if (still.elapsed() > 1000 * kStill_s)
-      return true;
+    }
+    // A key that was let go by the window itself (no fresh view, busy) has to be pressed anew.
+    if (moving || !hand_.presses()) {
+      stuck.restart();
+    } else if (stuck.elapsed() > 1000 * kStuck_s) {
+      hand_.letGo();
+      hand_.look(kAgain_s);
+      stuck.restart();
+    }
     hand_.look(0.04);
   }
   hand_.letGo();

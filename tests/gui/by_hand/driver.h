@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <functional>
 #include <optional>
 
@@ -13,6 +14,7 @@ class Driver {
  public:
   struct Tolerance {
     double m, rad;
+    bool rest = true;  ///< and stand there
   };
   Driver(Hand& hand, QWidget& window) : hand_(hand), window_(window) {}
   /// Position and heading in map, as the scene's chip has them.
@@ -31,13 +33,18 @@ class Driver {
   bool driveToWork(const QString& place, const Tolerance& within, double limit_s);
 
  private:
+  /// What was read when.
+  struct Reading {
+    double at_s;
+    Pose2 to_go;
+  };
   /// @param to_go  from the base, in base; nullopt: cannot be read, so nothing is pressed.
   bool drive(const std::function<std::optional<Pose2>()>& to_go, const Tolerance& within,
              double limit_s);
-  void steer(const Pose2& to_go, const Tolerance& within);
+  void steer(const Tolerance& within);
   Hand& hand_;
   QWidget& window_;
-  int percent_ = 35;
+  std::deque<Reading> read_;
 };
 
 }  // namespace kiln::gui

@@ -29,6 +29,7 @@ class Hand {
   void drag(QWidget& widget, const QPoint& from, const QPoint& to);
   void key(char letter, bool down);
   void letGo();
+  [[nodiscard]] bool presses() const { return !down_.isEmpty(); }  ///< a key
 
   /// All that the first widget of this class in the window paints; empty if it is not to be seen.
   template <class Widget>
