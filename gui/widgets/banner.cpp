@@ -18,7 +18,10 @@ void Banner::set(const Markup& words, BannerKind kind) {
     kind_ = kind;
     restyle();
   }
-  if (words.html() != text()) setText(words.html());
+  if (words.html() != text()) {
+    setText(words.html());
+    setTip(*this, words);  // for a banner that has not the room for all of them
+  }
   if (isHidden() != words.isEmpty()) setVisible(!words.isEmpty());
 }
 

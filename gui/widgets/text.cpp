@@ -25,6 +25,10 @@ QString tipText(const QString& plain) {
 
 void setTip(QWidget& widget, const QString& plain) { widget.setToolTip(tipText(plain)); }
 
+void setTip(QWidget& widget, const Markup& tip) {
+  widget.setToolTip(tip.isEmpty() ? QString() : QStringLiteral("<qt>") + tip.html());
+}
+
 void showTip(const QPoint& global, const Markup& tip, QWidget& owner) {
   QToolTip::showText(global, QStringLiteral("<qt>") + tip.html(), &owner);
 }

@@ -44,6 +44,7 @@ class Label : public QLabel {
 /// What a tool tip must be given so that Qt, which guesses, does not read it as markup.
 [[nodiscard]] QString tipText(const QString& plain);
 void setTip(QWidget& widget, const QString& plain);
+void setTip(QWidget& widget, const Markup& tip);
 /// A tip of one place in a widget, at once.
 void showTip(const QPoint& global, const Markup& tip, QWidget& owner);
 

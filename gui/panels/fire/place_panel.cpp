@@ -8,12 +8,14 @@
 #include "common/wire/fire/fire_view.h"
 #include "gui/models/localization_model.h"
 #include "gui/widgets/text.h"
+#include "gui/widgets/word_stack.h"
 
 namespace kiln::gui {
 
 namespace {
 constexpr int kWidth_px = 316;
 constexpr int kStepHeight_px = 28, kActHeight_px = 42;
+constexpr int kWords_px = 82;  // five lines: the keys below stand still whatever is said
 constexpr double kHold_s = 1.0;
 
 QString signedLength(double metres) {
@@ -45,7 +47,10 @@ PlacePanel::PlacePanel(const Ui& ui, StationModels& models, QWidget* parent)
   head->addWidget(name_, 1);
   head->addWidget(close_);
   column->addLayout(head);
-  column->addWidget(words_);
+  auto* said = new WordStack(0);
+  said->setFixedHeight(kWords_px);
+  said->add(words_);
+  column->addWidget(said);
   auto* steps = new QHBoxLayout;
   steps->setSpacing(4);
   steps_ = {step(tr("x−"), tr("2 cm towards −x of the map"), -kStep_m, 0, 0),
@@ -149,22 +154,21 @@ void PlacePanel::refresh() {
   name_->setText(place.isEmpty() ? tr("no fire place") : place);
   Markup text = check ? markup(QStringLiteral("<b>%1</b>"), offsetText(*check))
                       : Markup(tr("The robot has not looked at it yet."));
-  if (check && !check->reason.empty())
-    text += markup(QStringLiteral("<br>%1"), QString::fromStdString(check->reason));
+  // What an operator has done comes first: the last lines may not find room.
   if (nudge_.hasWish()) {
     const Pose2& wish = nudge_.wish();
     text += markup(tr("<br>wish: x %1, y %2, yaw %3"), signedLength(wish.x_m),
                    signedLength(wish.y_m), angleText(wish.yaw_rad));
   }
   if (!nudge_.refusal().isEmpty()) text += markup(QStringLiteral("<br>%1"), nudge_.refusal());
+  if (check && !check->reason.empty())
+    text += markup(QStringLiteral("<br>%1"), QString::fromStdString(check->reason));
   const bool caution =
       !nudge_.refusal().isEmpty() || (check && check->verdict == PlaceVerdict::Misplaced);
   words_->set(text, caution ? BannerKind::Caution : BannerKind::Plain);
   refreshButtons();
-  const int height =
-      layout()->hasHeightForWidth() ? layout()->heightForWidth(kWidth_px) : sizeHint().height();
-  if (QSize(kWidth_px, height) != size()) {
-    resize(kWidth_px, height);
+  if (const QSize needs(kWidth_px, sizeHint().height()); needs != size()) {
+    resize(needs);
     emit resized();
   }
   raise();

@@ -5,6 +5,7 @@
 
 #include "common/core/units.h"
 #include "gui/widgets/text.h"
+#include "gui/widgets/word_stack.h"
 
 namespace kiln::gui {
 namespace {
@@ -82,11 +83,12 @@ QWidget* ThermalTile::makeColumn() {
   box_ = new Label;
   rejected_ = new Label;
   reading_ = new Label;
+  auto* words = new WordStack(3);  // the key below stands still whatever is found
   for (Label* label : {peak_caption_, peak_, box_, rejected_, reading_}) {
     label->setWordWrap(label != peak_);
-    layout->addWidget(label);
+    words->add(label);
   }
-  layout->addStretch(1);
+  layout->addWidget(words, 1);
   scale_ = new QToolButton;
   scale_->setCheckable(true);
   nameScale();

@@ -38,6 +38,8 @@ JumpPanel::JumpPanel(const Ui& ui, StationModels& models, ForcedJump& jump, QWid
   for (ActButton* button : {static_cast<ActButton*>(start_), pause_, static_cast<ActButton*>(arm_),
                             static_cast<ActButton*>(confirm_), cancel_}) {
     button->setFixedHeight(kButton_px);
+    // By the room alone: a longer word must not move the key beside it.
+    button->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
   }
   auto* calm = new QWidget;
   auto* calm_row = new QHBoxLayout(calm);
@@ -50,7 +52,7 @@ JumpPanel::JumpPanel(const Ui& ui, StationModels& models, ForcedJump& jump, QWid
   auto* asking_row = new QHBoxLayout(asking);
   asking_row->setContentsMargins(0, 0, 0, 0);
   asking_row->setSpacing(8);
-  asking_row->addWidget(confirm_, 1);
+  asking_row->addWidget(confirm_, 2);  // has the state's name on it
   asking_row->addWidget(cancel_, 1);
   rows_->addWidget(calm);
   rows_->addWidget(asking);

@@ -11,7 +11,8 @@ namespace kiln::gui {
 
 namespace {
 constexpr int kPad_px = 8;
-constexpr double kNear_m = 0.3;  // amber: the base needs so much to stop from walking pace
+constexpr double kTouching_m = 0.005;  // shows as 0.00 m
+constexpr double kNear_m = 0.3;        // amber: the base needs so much to stop from walking pace
 
 QString signedText(double value, int decimals) {
   const QString digits = QString::number(std::abs(value), 'f', decimals);
@@ -23,7 +24,8 @@ QString signedText(double value, int decimals) {
 PoseChip::PoseChip(const Ui& ui, const StationModels& models, QWidget* parent)
     : QWidget(parent), ui_(ui), models_(models) {
   setTip(*this, tr("The base in the map, its measured speed, and the nearest point of the newest "
-                   "cloud from the edge of the robot's footprint."));
+                   "cloud from the edge of the robot's footprint. What has come nearer than the "
+                   "LiDAR can tell from the robot is remembered for 20 s."));
   connect(&ui_.theme, &Theme::changed, this, qOverload<>(&QWidget::update));
   resize(sizeHint());
 }
@@ -57,9 +59,10 @@ QString PoseChip::drive() const {
       std::isfinite(speed_mps) ? QString::number(speed_mps, 'f', 2) : QStringLiteral("–");
   const bool seen = heard && clearance_ && models_.cloud.ageLevel() == AgeLevel::Fresh;
   if (!seen) return tr("%1 m/s · nearest –").arg(speed);
+  const QString side = tr(sideWord(clearance_->bearing_rad));
+  if (clearance_->distance_m < kTouching_m) return tr("%1 m/s · TOUCHING %2").arg(speed, side);
   return tr("%1 m/s · nearest %2 m %3")
-      .arg(speed, QString::number(clearance_->distance_m, 'f', 2),
-           tr(sideWord(clearance_->bearing_rad)));
+      .arg(speed, QString::number(clearance_->distance_m, 'f', 2), side);
 }
 
 bool PoseChip::near() const {

@@ -61,7 +61,7 @@ SceneTile::SceneTile(const Ui& ui, StationModels& models, RobotGeometry geometry
   connect(&models_.status, &Model::changed, this, &SceneTile::takeStatus);
   connect(&models_.cloud, &Model::changed, this, [this] {
     state_.setCloud(models_.cloud.cloud());
-    figures_->show(nearestObstacle(state_.snapshot(), state_.geometry()));
+    figures_->show(clearance_.look(state_.snapshot(), state_.geometry()));
     refresh();
   });
   connect(&models_.scene, &Model::changed, this, [this] {

@@ -2,6 +2,7 @@
 
 #include "gui/models/pose_placer.h"
 #include "gui/models/station_models.h"
+#include "gui/views/scene3d/clearance.h"
 #include "gui/views/scene3d/scene_canvas.h"
 #include "gui/views/scene3d/scene_card.h"
 #include "gui/widgets/tile.h"
@@ -60,6 +61,7 @@ class SceneTile : public Tile {
   Ui ui_;
   StationModels& models_;
   SceneState state_;
+  ClearanceMeter clearance_;
   SceneCanvas* canvas_;
   LayerPanel* layers_;
   bool panel_chosen_ = false;  ///< the operator has shown or hidden it

@@ -1,6 +1,5 @@
 #include "gui/views/state_card/state_card.h"
 
-#include <QGridLayout>
 #include <QResizeEvent>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -10,11 +9,10 @@
 namespace kiln::gui {
 
 namespace {
-constexpr int kMaxExits = 4;
-constexpr int kExitsBesideRelease = 2;  // the release needs the room
-constexpr int kExitsInOneColumn = 2;    // more stand two a row, and their texts are shorter
-constexpr int kLow_px = 300;
-constexpr int kTight_px = 200;  // no room for exits; they are in the graph
+constexpr int kTall_px = 380;    // room for all words of the exits
+constexpr int kMiddle_px = 240;  // room for those of two
+constexpr int kTight_px = 200;   // no room for exits; they are in the graph
+constexpr int kRow_px = 18;      // less of a list is nothing
 constexpr double kInputAmber_s = 0.5;
 constexpr double kInputRed_s = 2.0;
 constexpr double kInputShown_s = 0.005;
@@ -36,27 +34,24 @@ StateCard::StateCard(const Ui& ui, StationModels& models, ForcedJump& jump, QWid
       ticks_(new TickList(ui)),
       preflight_(new PreflightList(ui)),
       release_(new HoldButton(ui, tr("Release protective stop"), 1.0)),
-      exits_title_(new Banner(ui, TextRole::Small)),
-      exits_grid_(new QGridLayout) {
+      exits_(new ExitList(ui)) {
   auto* body = new QWidget;
   auto* column = new QVBoxLayout(body);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(6);
   release_->setKind(ActKind::Caution);
   release_->setSubtext(tr("hold 1 s; the arm stays where it is"));
-  exits_title_->setDim(true);
-  exits_grid_->setContentsMargins(0, 0, 0, 0);
-  exits_grid_->setSpacing(6);
-  for (const int side : {0, 1}) exits_grid_->setColumnStretch(side, 1);
-  column->addWidget(release_);  // above words that change: it must not move under the hand
-  column->addWidget(notice_);
-  column->addWidget(display_);
-  column->addWidget(ticks_);
-  column->addWidget(preflight_, 100);
-  column->addStretch(1);
-  column->addWidget(exits_title_);
-  column->addLayout(exits_grid_);
+  for (Banner* words : {notice_, display_}) words->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+  auto* words = new WordStack(6);
+  words->add(release_);  // above words that change: it must not move under the hand
+  words->add(notice_);
+  words->add(display_);
+  words->add(ticks_, kRow_px);
+  words->add(preflight_, kRow_px);
+  column->addWidget(words, 1);
+  column->addWidget(exits_);
   setContent(body);
+  connect(exits_, &ExitList::picked, &jump_, &ForcedJump::pick);
   connect(release_, &HoldButton::completed, this, [this] {
     models_.commands.send(ReleaseProtectiveStop{}, tr("release the protective stop"));
   });
@@ -170,20 +165,12 @@ void StateCard::refresh() {
   refreshExits();
 }
 
-void StateCard::arrangeExits() {
-  const int count = static_cast<int>(exits_.size());
-  // In a low card the guards need the room.
-  const int columns = count <= 1 || (count <= kExitsInOneColumn && height() >= kLow_px) ? 1 : 2;
-  for (int n = 0; n < count; ++n) {
-    const bool alone = columns == 2 && n == count - 1 && n % 2 == 0;
-    exits_grid_->addWidget(exits_[static_cast<std::size_t>(n)], n / columns, n % columns, 1,
-                           columns == 1 || alone ? 2 : 1);
-  }
-}
-
 void StateCard::resizeEvent(QResizeEvent* event) {
   Tile::resizeEvent(event);
-  if ((event->oldSize().height() >= kLow_px) != (height() >= kLow_px)) arrangeExits();
+  exits_->setRoom(height() >= kTall_px     ? ExitList::Room::Tall
+                  : height() >= kMiddle_px ? ExitList::Room::Middle
+                                           : ExitList::Room::Low);
+  refreshExits();
 }
 
 void StateCard::refreshExits() {
@@ -192,37 +179,22 @@ void StateCard::refreshExits() {
   const QString key = (info ? QString::fromStdString(info->mission_uuid) : QString{}) + current;
   if (key != exits_of_) {
     exits_of_ = key;
-    for (ActButton* button : exits_) button->deleteLater();
-    exits_.clear();
+    std::vector<ExitList::Exit> exits;
     for (std::size_t i = 0; info && i < info->edges.size(); ++i) {
       const FsmEdgeInfo& edge = info->edges[i];
-      if (QString::fromStdString(edge.from) != current ||
-          static_cast<int>(exits_.size()) == kMaxExits)
-        continue;
       const QString to = QString::fromStdString(edge.to);
-      if (!jump_.enterable(to)) continue;
-      auto* button = new ActButton(ui_, models_.fsm.label(to));
-      button->setSubtext(QString::fromStdString(edge.consequence));
-      button->setWrapping(true);
-      connect(button, &QAbstractButton::clicked, this, [this, to] { jump_.pick(to); });
-      exits_.push_back(button);
+      if (QString::fromStdString(edge.from) == current && jump_.enterable(to))
+        exits.push_back({to, models_.fsm.label(to), QString::fromStdString(edge.consequence)});
     }
-    arrangeExits();
+    exits_->setExits(exits);
   }
   QString why;
-  const bool may = models_.mayCommand(&why);
-  // The checks need the room; a recording has no use for exits.
-  const bool checks = !preflight_->isHidden() || models_.link.readOnly();
-  const bool room = height() >= kTight_px;
-  const int shown = checks || !room ? 0 : release_->isHidden() ? kMaxExits : kExitsBesideRelease;
-  for (std::size_t i = 0; i < exits_.size(); ++i) {
-    ActButton* button = exits_[i];
-    button->setVisible(static_cast<int>(i) < shown);
-    button->setEnabled(may);
-    setTip(*button,
-           may ? tr("%1\nThen hold to jump, below the graph.").arg(button->subtext()) : why);
-  }
-  exits_title_->set(exits_.empty() || shown == 0 ? QString{} : tr("Go to instead"));
+  (void)models_.mayCommand(&why);
+  exits_->setLock(why);
+  // The checks and a release need the room; a recording has no use for exits.
+  const bool other = !preflight_->isHidden() || models_.link.readOnly() ||
+                     (!release_->isHidden() && height() < kTall_px);
+  exits_->setVisible(!other && height() >= kTight_px && !exits_->buttons().empty());
 }
 
 }  // namespace kiln::gui

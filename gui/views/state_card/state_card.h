@@ -1,16 +1,14 @@
 #pragma once
 
-#include <vector>
-
 #include "gui/models/forced_jump.h"
 #include "gui/models/station_models.h"
+#include "gui/views/state_card/exit_list.h"
 #include "gui/views/state_card/preflight_list.h"
 #include "gui/views/state_card/tick_list.h"
 #include "gui/widgets/banner.h"
 #include "gui/widgets/hold_button.h"
 #include "gui/widgets/tile.h"
-
-class QGridLayout;
+#include "gui/widgets/word_stack.h"
 
 namespace kiln::gui {
 
@@ -24,7 +22,8 @@ class StateCard : public Tile {
   [[nodiscard]] TickList* ticks() const { return ticks_; }
   [[nodiscard]] PreflightList* preflight() const { return preflight_; }
   [[nodiscard]] HoldButton* protectiveRelease() const { return release_; }
-  [[nodiscard]] const std::vector<ActButton*>& exits() const { return exits_; }
+  [[nodiscard]] const std::vector<ActButton*>& exits() const { return exits_->buttons(); }
+  [[nodiscard]] ExitList* exitList() const { return exits_; }
   /// Whatever it has to say: its neighbours stand still.
   [[nodiscard]] QSize sizeHint() const override { return {300, 300}; }
   [[nodiscard]] QSize minimumSizeHint() const override { return {260, 180}; }
@@ -37,7 +36,6 @@ class StateCard : public Tile {
   void refreshHeader(const FsmStatus& fsm);
   void refreshNotice();
   void refreshExits();
-  void arrangeExits();
   [[nodiscard]] std::vector<TickList::Row> guardRows(const FsmStatus& fsm) const;
   Ui ui_;
   StationModels& models_;
@@ -47,9 +45,7 @@ class StateCard : public Tile {
   TickList* ticks_;
   PreflightList* preflight_;
   HoldButton* release_;
-  Banner* exits_title_;
-  QGridLayout* exits_grid_;
-  std::vector<ActButton*> exits_;
+  ExitList* exits_;
   QString exits_of_;
 };
 

@@ -12,6 +12,10 @@ namespace kiln::gui {
 namespace {
 constexpr int kWordButton_px = 28, kJointButton_px = 13;
 constexpr int kFirstJoint = 2;  // ids of the mode buttons: 0 Move, 1 Turn, 2..7 joints 1..6
+
+QString caption(bool joints, int joint) {
+  return joints ? JogPanel::tr("arm joint %1").arg(joint + 1) : JogPanel::tr("arrows PgUp/Dn ⇧");
+}
 }  // namespace
 
 JogPanel::JogPanel(const Ui& ui, HoldToRun& hold, QWidget* parent)
@@ -112,7 +116,7 @@ void JogPanel::setArmMode(ArmJogMode mode, int joint) {
   arm_->setEnds(joints ? sign + "+" : QString(), joints ? sign + "−" : QString(), {}, {});
   up_->setEnds({}, {}, mode == ArmJogMode::Turn ? QStringLiteral("↻") : QStringLiteral("up"),
                mode == ArmJogMode::Turn ? QStringLiteral("↺") : QStringLiteral("dn"));
-  arm_caption_->setText(joints ? tr("arm joint %1").arg(joint + 1) : tr("arrows PgUp/Dn ⇧"));
+  arm_caption_->setText(caption(joints, joint));
   restyle();
 }
 
@@ -207,6 +211,12 @@ void JogPanel::restyle() {
     label->setFont(ui_.theme.font(TextRole::Small));
     label->setStyleSheet(QStringLiteral("color: %1").arg(p.dim.name()));
   }
+  // As wide as its longest words: the sticks stand still when they change.
+  const QFontMetrics metrics(ui_.theme.font(TextRole::Small));
+  arm_caption_->setAlignment(Qt::AlignCenter);
+  arm_caption_->setFixedWidth(std::max(metrics.horizontalAdvance(caption(false, 0)),
+                                       metrics.horizontalAdvance(caption(true, 0))) +
+                              2);
   const int chosen = mixer_.arm_mode == ArmJogMode::Move   ? 0
                      : mixer_.arm_mode == ArmJogMode::Turn ? 1
                                                            : kFirstJoint + mixer_.joint;

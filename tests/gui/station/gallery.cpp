@@ -10,8 +10,10 @@
 #include "gui/app/main_window.h"
 #include "gui/link/replay_link.h"
 #include "gui/panels/fire/place_panel.h"
+#include "gui/views/alarm_strip/alarm_list.h"
 #include "gui/views/scene3d/scene_renderer.h"
 #include "gui/views/scene3d/scene_tile.h"
+#include "robot/app/alarm_book.h"
 #include "tests/gui/support/direct_link.h"
 
 using namespace kiln;
@@ -74,6 +76,30 @@ struct Desk {
       {theme, link.clock()}, models, {geometry(), !wanted.flat && openGlAvailable(), nullptr}};
 };
 
+/// More than the strip can hold: standing, over, to acknowledge and acknowledged.
+void showAlarms(Desk& desk, const Wanted& wanted) {
+  AlarmBook& alarms = desk.link.robot().alarms();
+  const auto raise = [&](const char* id, AlarmLevel level, const char* text, const char* action) {
+    alarms.set(id, true, level, text, action, desk.link.robot().now());
+    desk.pass(1.0);
+  };
+  raise("pump.current", AlarmLevel::Caution, "left pump without current",
+        "check the tank; acknowledge; spray by hand with the other one");
+  raise("lidar", AlarmLevel::Warning, "LiDAR silent for 2.1 s",
+        "check its cable and power; drive by the cameras only");
+  raise("watch", AlarmLevel::Warning,
+        "STOP by motion watch: the wheels turn at 0.41 m/s although 0.20 m/s are commanded",
+        "look at the wheels and at what the robot stands against, then clear the stop");
+  raise("disk", AlarmLevel::Advisory, "little room for a recording", "make room");
+  alarms.set("lidar", false, AlarmLevel::Warning, "LiDAR silent for 2.1 s", "",
+             desk.link.robot().now());
+  desk.pass(20.0);
+  desk.window.alarmList()->toggle();
+  desk.pass(0.5);
+  shot(desk.window, wanted, "11-alarms");
+  desk.window.alarmList()->toggle();
+}
+
 /// What an operator sees when it is not going well.
 void showStates(Desk& desk, const Wanted& wanted) {
   desk.models.commands.send(SetMode{Mode::Teleop}, "teleop");
@@ -90,6 +116,7 @@ void showStates(Desk& desk, const Wanted& wanted) {
   desk.pass(0.5);
   shot(desk.window, wanted, "8-jump-armed");
   desk.window.forcedJump().cancel();
+  showAlarms(desk, wanted);
   desk.link.setSilent(true);
   desk.pass(8.0);
   shot(desk.window, wanted, "9-no-link");

@@ -128,6 +128,56 @@ TEST_F(StateCardTest, AnExitIsOnlyTakenAfterTheHold) {
   })) << jump.message().toStdString();
 }
 
+TEST_F(StateCardTest, WhatAnExitDoesIsToBeReadWhole) {
+  station.startMission();
+  FsmStatus fsm = *station.models.fsm.status();
+  std::size_t most = 0;
+  for (const QSize size : {QSize(366, 206), QSize(403, 244), QSize(430, 420)}) {
+    card.resize(size);
+    for (const FsmStateInfo& state : station.models.fsm.info()->states) {
+      fsm.state = state.name;
+      emit station.link.fsmStatus(std::make_shared<const FsmStatus>(fsm));
+      station.models.flush();
+      QCoreApplication::processEvents();
+      most = std::max(most, card.exits().size());
+      std::vector<QRect> before;
+      for (const ActButton* exit : card.exits()) before.push_back(exit->geometry());
+      for (ActButton* exit : card.exits()) {
+        QEvent enter(QEvent::Enter), leave(QEvent::Leave);
+        QCoreApplication::sendEvent(exit, &enter);
+        EXPECT_TRUE(card.exitList()->whole())
+            << state.name << " -> " << exit->text().toStdString() << " at " << size.width() << "x"
+            << size.height() << ": " << card.exitList()->told().toStdString();
+        QCoreApplication::sendEvent(exit, &leave);
+        const QString told = card.exitList()->told() + exit->subtext();
+        EXPECT_FALSE(told.isEmpty());
+      }
+      for (std::size_t i = 0; i < before.size(); ++i)
+        EXPECT_EQ(card.exits()[i]->geometry(), before[i]) << "pointing at it moved it";
+    }
+  }
+  EXPECT_EQ(most, ExitList::kMost) << "nothing was crowded";
+}
+
+TEST_F(StateCardTest, TheStripTellsOfTheExitUnderThePointer) {
+  station.startMission();
+  const auto& info = *station.models.fsm.info();
+  card.resize(366, 240);
+  for (int i = 0; i < 600 && card.exits().size() < 3; ++i) station.pass(0.3);
+  ASSERT_GE(card.exits().size(), 3U);
+  const QString calm = card.exitList()->told();
+  ActButton* exit = card.exits()[1];
+  QEvent enter(QEvent::Enter), leave(QEvent::Leave);
+  QCoreApplication::sendEvent(exit, &enter);
+  const QString told = card.exitList()->told();
+  const bool known = std::any_of(info.edges.begin(), info.edges.end(), [&](const FsmEdgeInfo& e) {
+    return !e.consequence.empty() && told.endsWith(QString::fromStdString(e.consequence));
+  });
+  EXPECT_TRUE(known) << told.toStdString();
+  QCoreApplication::sendEvent(exit, &leave);
+  EXPECT_EQ(card.exitList()->told(), calm);
+}
+
 TEST_F(StateCardTest, AForcedJumpGoesThroughArmPickAndHold) {
   station.startMission();
   station.pass(1.0);

@@ -12,6 +12,7 @@
 #include "gui/app/main_window.h"
 #include "gui/app/tile_layout.h"
 #include "gui/app/window_memory.h"
+#include "gui/views/alarm_strip/alarm_list.h"
 #include "gui/views/alarm_strip/alarm_strip.h"
 #include "gui/views/fsm_graph/fsm_tile.h"
 #include "gui/views/fsm_graph/graph_view.h"
@@ -20,6 +21,7 @@
 #include "gui/views/teleop/teleop_tile.h"
 #include "gui/views/top_bar/stop_button.h"
 #include "gui/views/top_bar/top_bar.h"
+#include "robot/app/alarm_book.h"
 #include "robot/safety/dead_man.h"
 #include "tests/gui/support/direct_link.h"
 #include "tests/gui/support/text_meter.h"
@@ -153,6 +155,41 @@ TEST_P(WindowTest, SpaceStopsWhereverTheFocusIs) {
   models.flush();
   EXPECT_TRUE(models.stop.latched());
   EXPECT_TRUE(search->text().isEmpty());
+}
+
+TEST_P(WindowTest, F2OpensTheListOfAlarmsAndEscClosesIt) {
+  for (int i = 0; i < 12; ++i)
+    link.robot().alarms().set(
+        "many." + std::to_string(i), true, AlarmLevel::Warning,
+        "STOP by motion watch: the wheels turn at 0.41 m/s, 0.20 m/s are told",
+        "look at the wheels and at what the robot stands against", link.robot().now());
+  step();
+  const AlarmList& list = *window.alarmList();
+  EXPECT_FALSE(list.isVisible());
+  const auto over = [&](const QWidget& other) {
+    return QRect(other.mapTo(&window, QPoint()), other.size()).intersects(list.geometry());
+  };
+  for (const Qt::Key close : {Qt::Key_F2, Qt::Key_Escape}) {
+    QTest::keyClick(&window, Qt::Key_F2);
+    step();
+    ASSERT_TRUE(list.isVisible());
+    EXPECT_EQ(list.rows().size(), 12U);
+    EXPECT_TRUE(window.rect().contains(list.geometry()));
+    for (const QWidget* kept :
+         {static_cast<QWidget*>(window.topBar()), static_cast<QWidget*>(window.stateCard()),
+          static_cast<QWidget*>(window.alarmStrip()), static_cast<QWidget*>(window.macrosTile())})
+      EXPECT_FALSE(kept->isVisible() && over(*kept)) << kept->metaObject()->className();
+    QTest::keyClick(&window, close);
+    step();
+    EXPECT_FALSE(list.isVisible()) << "key " << close;
+  }
+  // While a word is typed into the search, too.
+  QTest::keyClick(&window, Qt::Key_Slash);
+  QTest::keyClick(window.fsmTile()->findChild<QLineEdit*>(), Qt::Key_F2);
+  EXPECT_TRUE(list.isVisible());
+  QTest::keyClick(window.fsmTile()->findChild<QLineEdit*>(), Qt::Key_Escape);
+  EXPECT_FALSE(list.isVisible());
+  EXPECT_FALSE(window.fsmTile()->findChild<QLineEdit*>()->isVisible());
 }
 
 TEST_P(WindowTest, TheThemeChangesAndThePictureWithIt) {

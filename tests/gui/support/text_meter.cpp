@@ -24,12 +24,14 @@ class TextEngine : public QPaintEngine {
   void drawPolygon(const QPointF*, int, PolygonDrawMode) override {}
   void drawTextItem(const QPointF&, const QTextItem& item) override {
     ++smallest.texts;
+    all += item.text();
     const double points = item.font().pointSizeF() * scale_;
     if (points >= smallest.points) return;
     smallest.points = points;
     smallest.text = item.text();
   }
   SmallestText smallest;
+  QString all;
 
  private:
   double scale_ = 1.0;
@@ -70,6 +72,12 @@ SmallestText smallestText(QWidget& widget) {
   TextDevice device(widget);
   widget.render(&device);
   return device.engine.smallest;
+}
+
+QString paintedText(QWidget& widget) {
+  TextDevice device(widget);
+  widget.render(&device);
+  return device.engine.all;
 }
 
 }  // namespace kiln::gui

@@ -16,4 +16,8 @@ struct SmallestText {
 /// points of the screen (a painter may be scaled). Texts in ready pictures are not seen.
 [[nodiscard]] SmallestText smallestText(QWidget& widget);
 
+/// All texts that `widget` with its children paints, in the order of painting: what can be read on
+/// the screen.
+[[nodiscard]] QString paintedText(QWidget& widget);
+
 }  // namespace kiln::gui

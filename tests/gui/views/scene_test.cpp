@@ -398,13 +398,66 @@ TEST(Clearance, IsFromTheFootprintsEdgeToWhatStandsInTheWay) {
   RobotGeometry geometry;
   geometry.length_m = 1.9;
   geometry.width_m = 1.4;
-  const auto found = nearestObstacle(wallAhead(1.75), geometry);
+  const auto found = ClearanceMeter().look(wallAhead(1.75), geometry);
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->distance_m, 0.80, 1e-3);  // 1.75 m less half of 1.9 m
   EXPECT_STREQ(sideWord(found->bearing_rad), "ahead");
   SceneSnapshot nothing = wallAhead(1.75);
   nothing.cloud.reset();
-  EXPECT_FALSE(nearestObstacle(nothing, geometry));
+  EXPECT_FALSE(ClearanceMeter().look(nothing, geometry));
+}
+
+/// wallAhead() with so much between wall and footprint, at a time; `seen`: the wall is in it.
+SceneSnapshot gapAhead(double gap_m, double at_s, bool seen = true) {
+  SceneSnapshot snapshot;
+  snapshot.robot_known = true;
+  snapshot.X_map_base = {10.0 - 0.95 - gap_m, 0.0, 0.0};
+  auto cloud = std::make_shared<PointCloud>();
+  cloud->stamp = Stamp{fromSeconds(at_s)};
+  for (int i = 0; seen && i < 20; ++i) cloud->push(10.0F, 0.01F * float(i), 0.6F, 0, 0, 0);
+  for (int i = 0; i < 20; ++i) cloud->push(15.0F, 0.01F * float(i), 0.6F, 0, 0, 0);
+  snapshot.cloud = cloud;
+  return snapshot;
+}
+
+TEST(Clearance, WhatTouchesTheRobotDoesNotVanish) {
+  RobotGeometry geometry;
+  geometry.length_m = 1.9;
+  geometry.width_m = 1.4;
+  ClearanceMeter meter;
+  const auto gap = [&](double gap_m, double at_s, bool seen) {
+    const auto found = meter.look(gapAhead(gap_m, at_s, seen), geometry);
+    EXPECT_STREQ(sideWord(found ? found->bearing_rad : 9.0), "ahead");
+    return found ? found->distance_m : NAN;
+  };
+  EXPECT_NEAR(gap(0.30, 0.0, true), 0.30, 1e-3);
+  EXPECT_NEAR(gap(0.04, 0.2, true), 0.04, 1e-3);
+  EXPECT_NEAR(gap(0.01, 0.4, true), 0.01, 1e-3);
+  EXPECT_EQ(gap(-0.06, 0.6, true), 0.0) << "the robot has moved since the scan";
+  EXPECT_EQ(gap(-0.02, 0.8, false), 0.0) << "lost by the scan, and yet there";
+  EXPECT_NEAR(gap(0.05, 2.0, false), 0.05, 1e-3) << "backing off";
+  EXPECT_NEAR(gap(0.12, 3.0, false), 15.0 - 10.0 + 0.12, 1e-3) << "it would be seen now";
+  EXPECT_NEAR(gap(0.05, 4.0, false), 15.0 - 10.0 + 0.05, 1e-3) << "and was not";
+}
+
+TEST(Clearance, WhatWasNearIsForgottenInTimeAndNoiseAtOnce) {
+  RobotGeometry geometry;
+  geometry.length_m = 1.9;
+  geometry.width_m = 1.4;
+  ClearanceMeter meter;
+  (void)meter.look(gapAhead(0.05, 100.0), geometry);
+  EXPECT_NEAR(meter.look(gapAhead(0.05, 119.0, false), geometry)->distance_m, 0.05, 1e-3);
+  EXPECT_GT(meter.look(gapAhead(0.05, 121.0, false), geometry)->distance_m, 1.0);
+  (void)meter.look(gapAhead(0.05, 130.0), geometry);
+  EXPECT_GT(meter.look(gapAhead(0.05, 60.0, false), geometry)->distance_m, 1.0)
+      << "a jump in a recording";
+  for (int i = 0; i < 9; ++i) {  // one stray point a scan, each elsewhere
+    SceneSnapshot stray = gapAhead(0.05, 200.0 + 0.2 * i, false);
+    auto cloud = std::make_shared<PointCloud>(*stray.cloud);
+    cloud->push(9.99F, 0.06F * float(i), 0.6F, 0, 0, 0);
+    stray.cloud = cloud;
+    EXPECT_GT(meter.look(stray, geometry)->distance_m, 1.0);
+  }
 }
 
 TEST(Clearance, HasAWordForEachSide) {
@@ -428,6 +481,9 @@ TEST_F(StationTest, TheDriversFiguresAreThoseOfTheRobotAndGoWithIt) {
   feed();
   EXPECT_EQ(chip.pose(), "x −12.35 m  y +0.00 m  yaw −180°");
   EXPECT_EQ(chip.size(), before);
+  PoseChip near(ui, models);
+  near.show(Clearance{0.004, 0.8});
+  EXPECT_EQ(near.drive(), "0.50 m/s · TOUCHING ahead left");
   link.time.advanceBy(std::chrono::seconds(2));
   EXPECT_EQ(chip.pose(), "x – m  y – m  yaw –°") << "nobody knows";
   EXPECT_EQ(chip.drive(), "– m/s · nearest –");
