@@ -1,7 +1,10 @@
 // Files that a crash, a full disk or a bad sector has damaged.
+#include <fstream>
+
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include "common/record/chunk_builder.h"
 #include "common/record/mcap_encode.h"
 #include "common/record/run_topics.h"
 #include "tests/fuzz/mutator.h"
@@ -168,6 +171,52 @@ TEST(Recovery, ChunksThatClaimMuchAreNamedAndCostTheirSizeInTheFile) {
   const auto message = cursor.next();
   ASSERT_FALSE(message);
   EXPECT_NE(message.error().message.find("over 32 MiB"), std::string::npos);
+}
+
+/// Largest memory of this process so far, MiB.
+double peakMiB() {
+  std::ifstream status("/proc/self/status");
+  std::string word;
+  double kib = 0.0;
+  while (status >> word)
+    if (word == "VmHWM:") status >> kib;
+  return kib / 1024.0;
+}
+
+TEST(Recovery, ChunksThatAllOverlapCostNoMoreThanAFewAndTheRestIsNamed) {
+  constexpr int kChunks = 20;
+  const RecordFolder folder;
+  std::string file(mcap::kMagic);
+  mcap::append(file, mcap::Channel{1, 0, "/t", "raw", {}});
+  {
+    const std::string zeros(10u << 20, '\0');  // 200 MiB in all, some 20 kB in the file
+    ChunkBuilder chunk(1);
+    for (std::uint32_t i = 0; i < kChunks; ++i) {
+      chunk.add({1, i, 1000 + i, 1000 + i, zeros});
+      chunk.add({1, i, 9000 + i, 9000 + i, "end"});
+      file += chunk.close(file.size()).bytes;
+    }
+  }
+  EXPECT_LT(file.size(), 1u << 20);
+  writeAll(folder.file("a.mcap"), file);
+  const double before_MiB = peakMiB();
+  const auto reader = RecordReader::open(folder.file("a.mcap"));
+  ASSERT_TRUE(reader) << reader.error();
+  auto cursor = reader->messages();
+  int left_out = 0, ends = 0;
+  for (;;) {
+    const auto message = cursor.next();
+    if (!message) {
+      EXPECT_NE(message.error().message.find("overlap in time"), std::string::npos);
+      ASSERT_LE(++left_out, kChunks);
+      continue;
+    }
+    if (!*message) break;
+    ends += (*message)->data == "end" ? 1 : 0;
+  }
+  EXPECT_EQ(left_out + ends, kChunks);
+  EXPECT_GE(ends, 4);  // of what fits into 48 MiB
+  EXPECT_LT(peakMiB() - before_MiB, 110.0);
 }
 
 TEST(Recovery, UnreadCompressionIsRefusedByItsName) {
