@@ -17,14 +17,16 @@ void paintMark(QPainter& painter, const QPointF& at, const QString& label, const
       painter.drawLine(at + kGap_px * d, at + kArm_px * d);
   }
   const QFontMetricsF metrics(painter.font());
-  const double width = metrics.horizontalAdvance(label) + 8;
-  QRectF box(at.x() + kBeside_px, at.y() + kBeside_px, width, metrics.height() + 1);
+  // In a small picture the label takes several lines rather than end outside.
+  const QRectF room(0, 0, within.width() - 8, within.height());
+  const QSizeF text = metrics.boundingRect(room, Qt::TextWordWrap, label).size();
+  QRectF box(at + QPointF(kBeside_px, kBeside_px), text + QSizeF(8, 1));
   box.moveLeft(
       std::clamp(box.left(), within.left(), std::max(within.left(), within.right() - box.width())));
   box.moveTop(std::min(box.top(), within.bottom() - box.height()));
   painter.fillRect(box, QColor(0, 0, 0, 165));
   painter.setPen(Qt::white);
-  painter.drawText(box, Qt::AlignCenter, label);
+  painter.drawText(box, Qt::AlignCenter | Qt::TextWordWrap, label);
 }
 }  // namespace
 
