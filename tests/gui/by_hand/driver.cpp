@@ -19,7 +19,7 @@ constexpr double kBrake_mps2 = 1.5, kBrake_radps2 = 1.5;
 constexpr double kStill_mps = 0.03, kStill_s = 0.4;
 constexpr double kRate_s = 0.3;  // over which the eye judges how fast something changes
 constexpr double kDead = 0.4;    // of a tolerance: so far off no key is pressed
-constexpr double kStuck_s = 1.5, kAgain_s = 0.15;
+constexpr double kStuck_s = 0.7, kAgain_s = 0.1;
 constexpr int kHandle_px = 14;
 
 double number(const QString& sign, const QString& digits) {

@@ -31,7 +31,7 @@ namespace {
 constexpr double kMost_s = 240.0, kLeast_l = 0.5;  // the goal
 constexpr double kHotBy_s = 80.0;                  // since Request: what burns is hot by then
 constexpr double kLeastLook_s = 10.0, kReady_s = 60.0, kMacro_s = 75.0;
-constexpr int kPresses = 6;  // of the macro, should the window let go
+constexpr int kPresses = 20;  // of the macro, should the window let go
 
 struct Said {
   std::string trouble;  ///< empty: all went as the manual says
