@@ -59,14 +59,14 @@ class Person {
     if (!hand_.waitFor(5, [&] { return top().contains(QStringLiteral("TELEOP")); }))
       return fail("not in TELEOP");
     tell("in Teleop");
-    if (driver_.setSpeed(75) < 60) return fail("the speed slider does not follow");
+    if (driver_.setSpeed(55) < 45) return fail("the speed slider does not follow");
     for (const Pose2& via : {Pose2{2.5, 0, 0}, Pose2{7.4, 0, 0}})
       if (!driver_.driveTo(via, {0.3, 6 * kDeg, false}, 40)) return fail("not through the door");
     tell("inside");
     if (!driver_.driveTo({8.6, 1.6, 0}, {0.4, 8 * kDeg, false}, 20))
       return fail("not towards place 1");
     if (auto said = workAt(QStringLiteral("place 1"), QStringLiteral("spray fire 1"))) return *said;
-    if (driver_.setSpeed(60) < 45) return fail("the speed slider does not follow");
+    if (driver_.setSpeed(50) < 40) return fail("the speed slider does not follow");
     for (const Pose2& via : {Pose2{8.6, 0.6, 0}, Pose2{9.6, -0.6, -45 * kDeg}})
       if (!driver_.driveTo(via, {0.3, 8 * kDeg, false}, 25)) return fail("not towards place 2");
     if (auto said = workAt(QStringLiteral("place 2"), QStringLiteral("spray fire 2"))) return *said;
