@@ -4,11 +4,13 @@
 #include <algorithm>
 
 #include "common/geom/camera_model.h"
+#include "gui/widgets/fitted_text.h"
 
 namespace kiln::gui {
 
 namespace {
 constexpr double kGap_px = 4.0, kArm_px = 11.0, kBeside_px = 6.0;
+constexpr int kNarrow_pct = 82, kMostLines = 3;
 
 void paintMark(QPainter& painter, const QPointF& at, const QString& label, const QRectF& within) {
   for (const auto& [color, width] : {std::pair{QColor(Qt::black), 4.0}, {QColor(Qt::white), 1.8}}) {
@@ -16,17 +18,23 @@ void paintMark(QPainter& painter, const QPointF& at, const QString& label, const
     for (const QPointF& d : {QPointF(1, 0), QPointF(-1, 0), QPointF(0, 1), QPointF(0, -1)})
       painter.drawLine(at + kGap_px * d, at + kArm_px * d);
   }
-  const QFontMetricsF metrics(painter.font());
-  // In a small picture the label takes several lines rather than end outside.
-  const QRectF room(0, 0, within.width() - 8, within.height());
-  const QSizeF text = metrics.boundingRect(room, Qt::TextWordWrap, label).size();
-  QRectF box(at + QPointF(kBeside_px, kBeside_px), text + QSizeF(8, 1));
+  // Never beside the picture: a small one has it in several lines.
+  const QFont font = painter.font();
+  const int room = static_cast<int>(within.width()) - 8;
+  FittedText words = fitText(label, {font}, room, 1);
+  if (!words.whole) words = fitText(label, {font, condensed(font, kNarrow_pct)}, room, kMostLines);
+  const QFontMetricsF metrics(words.font);
+  double width = 8;
+  for (const QString& line : words.lines)
+    width = std::max(width, metrics.horizontalAdvance(line) + 8);
+  QRectF box(at.x() + kBeside_px, at.y() + kBeside_px, width, words.height() + 1);
   box.moveLeft(
       std::clamp(box.left(), within.left(), std::max(within.left(), within.right() - box.width())));
   box.moveTop(std::min(box.top(), within.bottom() - box.height()));
   painter.fillRect(box, QColor(0, 0, 0, 165));
   painter.setPen(Qt::white);
-  painter.drawText(box, Qt::AlignCenter | Qt::TextWordWrap, label);
+  paintFitted(painter, box, Qt::AlignCenter, words);
+  painter.setFont(font);
 }
 }  // namespace
 

@@ -90,7 +90,10 @@ void MacrosTile::letGo() {
 
 void MacrosTile::rebuildRows() {
   letGo();
-  for (MacroRow* row : rows_) row->parentWidget()->deleteLater();
+  for (MacroRow* row : rows_) {
+    row->parentWidget()->hide();
+    row->parentWidget()->deleteLater();
+  }
   rows_.clear();
   while (QLayoutItem* item = list_->takeAt(0)) delete item;
   for (const MacroInfo& macro : inOrder(models_.macros.macros())) addRow(macro);

@@ -2,6 +2,7 @@
 
 #include <QHBoxLayout>
 #include <QSlider>
+#include <QStackedWidget>
 #include <cmath>
 
 #include "gui/views/teleop/dead_man.h"
@@ -27,6 +28,7 @@ TeleopTile::TeleopTile(const Ui& ui, HoldToRun& hold, QWidget* parent)
   row->setSpacing(10);
   row->addWidget(panel_);
   row->addWidget(makeSide(), 1);
+  panel_->setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Preferred);
   setContent(content);
   new DeadMan(hold_, *panel_);
   connect(enter_, &QAbstractButton::clicked, this, &TeleopTile::enterTeleop);
@@ -64,12 +66,12 @@ QWidget* TeleopTile::makeSide() {
   enter_->setSubtext(tr("robot holds"));
   leave_ = new HoldButton(ui_, tr("To autonomy"), 1.0);
   leave_->setSubtext(tr("hold 1 s"));
-  state_ = new Label;
-  state_->setWordWrap(true);
-  state_->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Ignored);  // no word moves a control
-  state_->setAlignment(Qt::AlignTop | Qt::AlignLeft);
-  column->addWidget(enter_);
-  column->addWidget(leave_);
+  modes_ = new QStackedWidget;  // as large as either, so that a change of mode moves nothing
+  modes_->addWidget(enter_);
+  modes_->addWidget(leave_);
+  modes_->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
+  state_ = new FittedLabel(ui_);
+  column->addWidget(modes_);
   column->addWidget(state_, 1);
   auto* row = new QHBoxLayout;
   speed_caption_ = new Label(tr("Speed"));
@@ -113,8 +115,7 @@ void TeleopTile::refreshMode() {
                            "until you resume it")
                       : why);
   setTip(*speed_, may ? tr("share of the teleop speed at full stick; the robot applies it") : why);
-  enter_->setVisible(!teleop);
-  leave_->setVisible(teleop);
+  modes_->setCurrentWidget(teleop ? static_cast<QWidget*>(leave_) : enter_);
   enter_->setEnabled(may);
   leave_->setEnabled(may);
   speed_->setEnabled(may);
@@ -140,20 +141,16 @@ void TeleopTile::refresh() {
     color = p.caution;
   } else if (why.isEmpty()) {
     const QString slow = hold_.slowdown();
-    text = hold_.holding() ? tr("you drive") : tr("drag a stick, or click here and use keys");
+    text = hold_.holding() ? tr("you drive") : tr("drag a stick, or click and use keys");
     if (!slow.isEmpty()) text = slow;
     color = !slow.isEmpty() ? p.caution : hold_.holding() ? p.manual : p.dim;
   }
-  state_->setText(text);
-  setTip(*state_, text);
-  const QString style = QStringLiteral("color: %1").arg(color.name());
-  if (style != state_->styleSheet()) state_->setStyleSheet(style);  // Qt polishes anew each time
+  state_->set(text, color);
   setInfo(why.isEmpty() ? tr("live") : tr("locked"));
 }
 
 void TeleopTile::restyle() {
   const Palette& p = ui_.theme.colors();
-  state_->setFont(ui_.theme.font(TextRole::Small));
   speed_text_->setFont(ui_.theme.font(TextRole::Strong));
   speed_caption_->setFont(ui_.theme.font(TextRole::Small));
   speed_caption_->setStyleSheet(QStringLiteral("color: %1").arg(p.dim.name()));

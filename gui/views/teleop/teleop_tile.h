@@ -2,11 +2,13 @@
 
 #include "gui/views/teleop/hold_to_run.h"
 #include "gui/views/teleop/jog_panel.h"
+#include "gui/widgets/fitted_label.h"
 #include "gui/widgets/hold_button.h"
 #include "gui/widgets/text.h"
 #include "gui/widgets/tile.h"
 
 class QSlider;
+class QStackedWidget;
 
 namespace kiln::gui {
 
@@ -37,7 +39,9 @@ class TeleopTile : public Tile {
   JogPanel* panel_;
   ActButton* enter_;
   HoldButton* leave_;
-  Label *state_, *speed_caption_, *speed_text_;
+  QStackedWidget* modes_;
+  FittedLabel* state_;
+  Label *speed_caption_, *speed_text_;
   QSlider* speed_;
   QTimer speed_timer_;
   QString trip_;  ///< why the last hold ended by force

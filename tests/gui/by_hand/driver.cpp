@@ -19,7 +19,9 @@ constexpr double kBrake_mps2 = 1.5, kBrake_radps2 = 1.5;
 constexpr double kStill_mps = 0.03, kStill_s = 0.4;
 constexpr double kRate_s = 0.3;  // over which the eye judges how fast something changes
 constexpr double kDead = 0.4;    // of a tolerance: so far off no key is pressed
-constexpr double kStuck_s = 1.5, kAgain_s = 0.15;
+constexpr double kFar_m = 0.5;   // from here on one direction after the other
+constexpr double kOff_m = 0.07, kOff_rad = 3.0 * kDeg, kTap_s = 0.15, kBetweenTaps_s = 0.9;
+constexpr double kStuck_s = 0.7, kAgain_s = 0.1;
 constexpr int kHandle_px = 14;
 
 double number(const QString& sign, const QString& digits) {
@@ -66,6 +68,7 @@ std::optional<Driver::Way> Driver::wayToWork() const {
 }
 
 int Driver::setSpeed(int percent) {
+  hand_.letGo();
   auto* slider = window_.findChild<TeleopTile*>()->findChild<QSlider*>();
   const auto at = [&](int value) {
     const double share =
@@ -79,18 +82,60 @@ int Driver::setSpeed(int percent) {
   return kPercent.match(hand_.read<TeleopTile>()).captured(1).toInt();
 }
 
-void Driver::steer(const Tolerance& within) {
+void Driver::press(std::size_t axis, int sign) {
+  static constexpr std::array<char, 3> kPlus{'w', 'a', 'q'}, kMinus{'s', 'd', 'e'};
+  hand_.key(kPlus[axis], sign > 0);
+  hand_.key(kMinus[axis], sign < 0);
+}
+
+void Driver::steer(const Tolerance& within, bool moving) {
   const Reading &then = read_.front(), &now = read_.back();
   const double dt = std::max(1e-3, now.at_s - then.at_s);
-  const auto press = [&](double before, double to_go, double brake, double dead, char plus,
-                         char minus) {
-    const double rest = atRest(to_go, (before - to_go) / dt, brake);
-    hand_.key(plus, rest > dead);
-    hand_.key(minus, rest < -dead);
+  const auto rest = [&](double before, double to_go, double brake) {
+    return atRest(to_go, (before - to_go) / dt, brake);
   };
-  press(then.to_go.x_m, now.to_go.x_m, kBrake_mps2, kDead * within.m, 'w', 's');
-  press(then.to_go.y_m, now.to_go.y_m, kBrake_mps2, kDead * within.m, 'a', 'd');
-  press(then.to_go.yaw_rad, now.to_go.yaw_rad, kBrake_radps2, kDead * within.rad, 'q', 'e');
+  const Errors errors{rest(then.to_go.x_m, now.to_go.x_m, kBrake_mps2),
+                      rest(then.to_go.y_m, now.to_go.y_m, kBrake_mps2),
+                      rest(then.to_go.yaw_rad, now.to_go.yaw_rad, kBrake_radps2)};
+  if (std::max(std::abs(errors[0]), std::abs(errors[1])) > kFar_m) {
+    axis_.reset();
+    travel(errors);
+  } else {
+    approach(errors, {kDead * within.m, kDead * within.m, kDead * within.rad}, moving);
+  }
+}
+
+void Driver::travel(const Errors& rest) {
+  const double now_s = read_.back().at_s;
+  for (std::size_t axis = 0; axis < rest.size(); ++axis) {
+    const int sign = rest[axis] > 0.0 ? 1 : -1;
+    if (axis < 2 && std::abs(rest[axis]) > kFar_m) {
+      press(axis, sign);
+      continue;
+    }
+    const double off = axis < 2 ? kOff_m : kOff_rad;
+    if (now_s < tapped_until_s_[axis]) continue;
+    const bool rested = now_s > tapped_until_s_[axis] + kBetweenTaps_s;
+    if (rested && std::abs(rest[axis]) > off) {
+      press(axis, sign);
+      tapped_until_s_[axis] = now_s + kTap_s;
+    } else {
+      press(axis, 0);
+    }
+  }
+}
+
+void Driver::approach(const Errors& rest, const Errors& dead, bool moving) {
+  const auto ratio = [&](std::size_t axis) { return std::abs(rest[axis]) / dead[axis]; };
+  if (axis_ && ratio(*axis_) < 1.0) axis_.reset();
+  if (!axis_ && !moving) {
+    std::size_t worst = 0;
+    for (const std::size_t axis : {1, 2})
+      if (ratio(axis) > ratio(worst)) worst = axis;
+    if (ratio(worst) >= 1.0) axis_ = worst;
+  }
+  for (std::size_t axis = 0; axis < rest.size(); ++axis)
+    press(axis, axis_ != axis ? 0 : rest[axis] > 0.0 ? 1 : -1);
 }
 
 bool Driver::drive(const std::function<std::optional<Pose2>()>& to_go, const Tolerance& within,
@@ -98,6 +143,8 @@ bool Driver::drive(const std::function<std::optional<Pose2>()>& to_go, const Tol
   QElapsedTimer timer, still, stuck;
   timer.start();
   read_.clear();
+  tapped_until_s_ = {};
+  axis_.reset();
   while (timer.elapsed() < 1000 * limit_s) {
     const auto left = to_go();
     const bool there = left && std::hypot(left->x_m, left->y_m) <= within.m &&
@@ -111,7 +158,7 @@ bool Driver::drive(const std::function<std::optional<Pose2>()>& to_go, const Tol
     if (!left || there)
       hand_.letGo();
     else
-      steer(within);
+      steer(within, moving);
     if (there && !moving) {
       if (!still.isValid()) still.start();
       if (still.elapsed() > 1000 * kStill_s) return true;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <deque>
 #include <functional>
 #include <optional>
@@ -41,10 +42,18 @@ class Driver {
   /// @param to_go  from the base, in base; nullopt: cannot be read, so nothing is pressed.
   bool drive(const std::function<std::optional<Pose2>()>& to_go, const Tolerance& within,
              double limit_s);
-  void steer(const Tolerance& within);
+  using Errors = std::array<double, 3>;  ///< ahead, left, turn: where it comes to rest by itself
+  void steer(const Tolerance& within, bool moving);
+  /// Far off: keys down along the way, short taps for what is off beside it.
+  void travel(const Errors& rest);
+  /// Near: one direction after the other, standing in between.
+  void approach(const Errors& rest, const Errors& dead, bool moving);
+  void press(std::size_t axis, int sign);
   Hand& hand_;
   QWidget& window_;
   std::deque<Reading> read_;
+  Errors tapped_until_s_{};
+  std::optional<std::size_t> axis_;  ///< along which it approaches now
 };
 
 }  // namespace kiln::gui

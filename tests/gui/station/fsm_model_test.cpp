@@ -50,6 +50,34 @@ TEST(FsmModel, TheClockOfAStateStandsWhileTheMissionIsPaused) {
   EXPECT_LT(station.models.fsm.timeInStateS(), paused + 4.0);
 }
 
+TEST(FsmModel, AStationThatJoinsLateCountsTheSame) {
+  SteppedStation station;
+  station.takeLease();
+  station.startMission();
+  station.pass(4.0);
+  station.models.commands.send(Pause{}, "pause");
+  station.pass(60.0);
+  StationModels late(station.link);
+  const auto both = [&] {
+    return std::pair(station.models.fsm.timeInStateS(), late.fsm.timeInStateS());
+  };
+  station.pass(0.2);
+  EXPECT_NEAR(both().second, both().first, 0.02) << "joined while it was held";
+  EXPECT_LT(both().second, 6.0);
+  station.models.commands.send(Resume{}, "resume");
+  station.pass(3.0);
+  EXPECT_NEAR(both().second, both().first, 0.02) << "and gone on";
+  EXPECT_NEAR(both().second, 7.5, 1.0);
+  // Joined after the pause is over, and from a robot that does not tell: it cannot know better.
+  StationModels later(station.link);
+  station.pass(0.2);
+  EXPECT_NEAR(later.fsm.timeInStateS(), both().first, 0.02);
+  FsmStatus untold = station.link.robot().fsmStatus();
+  untold.paused_in_state.reset();
+  emit station.link.fsmStatus(std::make_shared<const FsmStatus>(untold));
+  EXPECT_GT(later.fsm.timeInStateS(), 60.0);
+}
+
 TEST(FsmModel, MarksForcedTransitions) {
   SteppedStation station;
   station.takeLease();
