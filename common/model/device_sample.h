@@ -1,5 +1,6 @@
 #pragma once
 
+#include "common/model/handling.h"
 #include "common/model/sensor.h"
 
 namespace kiln {
@@ -11,6 +12,8 @@ struct DeviceSample {
   std::optional<ArmState> arm;
   std::optional<BaseState> base;
   std::optional<PumpsState> pumps;
+  std::optional<GripperState> gripper;
+  std::optional<StorageState> storage;
   Pose2 X_odom_base;
   Pose2 X_map_odom;          ///< as the localisation of that run had it
   std::uint32_t resets = 0;  ///< counts up when the robot has been carried back

@@ -55,6 +55,7 @@ void RobotGeometry::visit(ConfigArchive& a) {
   a.section("X_base_operatorcamera", X_base_operatorcamera, "rear-top camera for the operator");
   a.list("head", head, "boxes fixed in flange");
   a.list("arm_shapes", arm_shapes, "capsules of the arm and of what is fixed to it");
+  a.list("storage", storage, "compartments that travel sideways, the front one first");
   a.field("q_park_deg", q_park_deg, "deg", -360, 360, "arm folded above the deck");
   a.field("q_drive_deg", q_drive_deg, "deg", -360, 360, "LiDAR upright and clear");
 }

@@ -7,6 +7,7 @@
 #include "common/config/config_archive.h"
 #include "common/geom/capsule.h"
 #include "common/geom/pose.h"
+#include "common/robot_model/storage_geometry.h"
 #include "common/robot_model/ur_kinematics.h"
 
 namespace kiln {
@@ -56,6 +57,7 @@ struct RobotGeometry {
   PoseConfig X_base_operatorcamera;
   std::vector<BoxConfig> head;             ///< end-effector boxes, in flange
   std::vector<ArmShapeConfig> arm_shapes;  ///< hull of the arm and of what is fixed to it
+  std::vector<CompartmentConfig> storage;  ///< none: this robot stores nothing
   std::vector<double> q_park_deg{0, 0, 0, 0,
                                  0, 0};  ///< arm folded above the deck, for driving through doors
   std::vector<double> q_drive_deg{0, 0, 0, 0, 0, 0};  ///< LiDAR upright and clear, for driving

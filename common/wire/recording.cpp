@@ -67,6 +67,54 @@ Result<PumpsState> fromProto(const v1::PumpsState& in) {
   return pumps;
 }
 
+void toProto(const GripperState& gripper, v1::GripperState& out) {
+  out.set_stamp_ns(toNanoseconds(gripper.stamp));
+  out.set_seq(gripper.seq);
+  out.set_on(static_cast<std::uint32_t>(gripper.on.to_ulong()));
+  for (const double current : gripper.current_a) out.add_current_a(current);
+  out.set_contact(gripper.contact);
+}
+
+void toProto(const StorageState& storage, v1::StorageState& out) {
+  out.set_stamp_ns(toNanoseconds(storage.stamp));
+  out.set_seq(storage.seq);
+  for (const CompartmentState& from : storage.compartments) {
+    v1::CompartmentState& row = *out.add_compartments();
+    row.set_position_m(from.position_m);
+    row.set_target_m(from.target_m);
+    row.set_current_a(from.current_a);
+    row.set_moving(from.moving);
+    row.set_blocked(from.blocked);
+  }
+  out.set_setpoint_lost(storage.setpoint_lost);
+}
+
+Result<GripperState> fromProto(const v1::GripperState& in) {
+  GripperState gripper;
+  if (auto ok = copyFixed(in.current_a(), gripper.current_a, "gripper current"); !ok)
+    return tl::make_unexpected(ok.error());
+  gripper.stamp = stampFromNanoseconds(in.stamp_ns());
+  gripper.seq = in.seq();
+  gripper.on = GripperPoles(in.on());
+  gripper.contact = in.contact();
+  return gripper;
+}
+
+Result<StorageState> fromProto(const v1::StorageState& in) {
+  StorageState storage;
+  storage.stamp = stampFromNanoseconds(in.stamp_ns());
+  storage.seq = in.seq();
+  storage.setpoint_lost = in.setpoint_lost();
+  for (const v1::CompartmentState& row : in.compartments()) {
+    if (!std::isfinite(row.position_m() + row.target_m() + row.current_a()))
+      return makeError(ErrorCode::InvalidInput,
+                       "device sample: a compartment is not finite; dropped");
+    storage.compartments.push_back(
+        {row.position_m(), row.target_m(), row.current_a(), row.moving(), row.blocked()});
+  }
+  return storage;
+}
+
 bool finite(const Pose2& pose) { return std::isfinite(pose.x_m + pose.y_m + pose.yaw_rad); }
 
 }  // namespace
@@ -77,6 +125,8 @@ std::string encode(const DeviceSample& sample) {
   if (sample.arm) toProto(*sample.arm, *out.mutable_arm());
   if (sample.base) toProto(*sample.base, *out.mutable_base());
   if (sample.pumps) toProto(*sample.pumps, *out.mutable_pumps());
+  if (sample.gripper) toProto(*sample.gripper, *out.mutable_gripper());
+  if (sample.storage) toProto(*sample.storage, *out.mutable_storage());
   toProto(sample.X_odom_base, *out.mutable_x_odom_base());
   toProto(sample.X_map_odom, *out.mutable_x_map_odom());
   out.set_resets(sample.resets);
@@ -104,6 +154,16 @@ Result<DeviceSample> decodeDeviceSample(std::string_view bytes) {
     auto pumps = fromProto(in->pumps());
     if (!pumps) return tl::make_unexpected(pumps.error());
     sample.pumps = *pumps;
+  }
+  if (in->has_gripper()) {
+    auto gripper = fromProto(in->gripper());
+    if (!gripper) return tl::make_unexpected(gripper.error());
+    sample.gripper = *gripper;
+  }
+  if (in->has_storage()) {
+    auto storage = fromProto(in->storage());
+    if (!storage) return tl::make_unexpected(storage.error());
+    sample.storage = *storage;
   }
   sample.X_odom_base = fromProto(in->x_odom_base());
   sample.X_map_odom = fromProto(in->x_map_odom());

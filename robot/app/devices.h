@@ -4,9 +4,11 @@
 #include "robot/hal/arm.h"
 #include "robot/hal/device_set.h"
 #include "robot/hal/drive_base.h"
+#include "robot/hal/gripper.h"
 #include "robot/hal/lidar.h"
 #include "robot/hal/pumps.h"
 #include "robot/hal/rgb_camera.h"
+#include "robot/hal/storage.h"
 #include "robot/hal/thermal_camera.h"
 
 namespace kiln {
@@ -21,6 +23,9 @@ struct Devices {
   Lidar* lidar = nullptr;
   ThermalCamera* thermal = nullptr;
   RgbCamera* operator_camera = nullptr;
+  RgbCamera* head_camera = nullptr;
+  Gripper* gripper = nullptr;
+  Storage* storage = nullptr;
   std::function<bool()> connected = [] { return false; };
   /// How often the robot was carried back; nullopt: not heard yet.
   std::function<std::optional<std::uint32_t>()> resets = [] { return std::optional(0U); };
@@ -31,6 +36,9 @@ struct Devices {
     if (lidar != nullptr) out.insert(DeviceKind::Lidar);
     if (thermal != nullptr) out.insert(DeviceKind::ThermalCamera);
     if (operator_camera != nullptr) out.insert(DeviceKind::OperatorCamera);
+    if (head_camera != nullptr) out.insert(DeviceKind::HeadCamera);
+    if (gripper != nullptr) out.insert(DeviceKind::Gripper);
+    if (storage != nullptr) out.insert(DeviceKind::Storage);
     return out;
   }
 };

@@ -13,6 +13,8 @@ void RobotReporting::record(Stamp now) {
   sample.arm = body_.devices.arm.state();
   sample.base = body_.devices.base.state();
   sample.pumps = body_.pump_device.state();
+  if (body_.devices.gripper) sample.gripper = body_.devices.gripper->state();
+  if (body_.devices.storage) sample.storage = body_.devices.storage->state();
   sample.X_odom_base = body_.base.tracking().X_odom_base;
   sample.X_map_odom = tracked.X_map_odom;
   sample.resets = body_.belief.device_resets.value_or(0);

@@ -46,6 +46,9 @@ Devices Runtime::devices() {
   if (has.contains(DeviceKind::Lidar)) all.lidar = &sim->lidar();
   if (has.contains(DeviceKind::ThermalCamera)) all.thermal = &sim->thermalCamera();
   if (has.contains(DeviceKind::OperatorCamera)) all.operator_camera = &sim->operatorCamera();
+  if (has.contains(DeviceKind::HeadCamera)) all.head_camera = &sim->headCamera();
+  if (has.contains(DeviceKind::Gripper)) all.gripper = &sim->gripper();
+  if (has.contains(DeviceKind::Storage)) all.storage = &sim->storage();
   if (recorded_.lidar() != nullptr) all.lidar = recorded_.lidar();
   if (recorded_.thermal() != nullptr) all.thermal = recorded_.thermal();
   all.connected = [link = sim.get()] { return link->connected(); };

@@ -1,5 +1,6 @@
 #include "robot/app/sensor_intake.h"
 
+#include <array>
 #include <utility>
 
 #include "common/core/log.h"
@@ -39,7 +40,8 @@ void SensorIntake::start(std::function<void(ThermalImagePtr)> thermal,
 void SensorIntake::stop() {
   if (body_.devices.lidar) body_.devices.lidar->stop();
   if (body_.devices.thermal) body_.devices.thermal->stop();
-  if (body_.devices.operator_camera) body_.devices.operator_camera->stop();
+  for (RgbCamera* camera : {body_.devices.operator_camera, body_.devices.head_camera})
+    if (camera) camera->stop();
 }
 
 void SensorIntake::remember(const std::optional<BaseState>& wheels, const Pose2& X_odom_base) {
@@ -72,17 +74,22 @@ std::optional<Eigen::Isometry3d> SensorIntake::flangeAt(Stamp stamp,
 }
 
 void SensorIntake::runCameraOnDemand(OperatorLink* link) {
-  RgbCamera* camera = body_.devices.operator_camera;
-  if (!camera || !link) return;
+  const std::array cameras{std::pair{body_.devices.operator_camera, frames::kOperatorCamera},
+                           std::pair{body_.devices.head_camera, frames::kRgb}};
+  if (!link || (!cameras[0].first && !cameras[1].first)) return;
   const RunRecorder* recorder = body_.options.recorder;
   if (recorder) link->keepPictures(recorder->config().pictures && recorder->on());
-  const bool wanted = link->wanted(frames::kOperatorCamera);
-  if (wanted == camera_runs_) return;
-  camera_runs_ = wanted;
-  if (wanted)
-    warnIfFailed(camera->start(picture_));
-  else
-    camera->stop();
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    const auto& [camera, frame] = cameras[i];
+    if (!camera) continue;
+    const bool wanted = link->wanted(frame);
+    if (wanted == camera_runs_[i]) continue;
+    camera_runs_[i] = wanted;
+    if (wanted)
+      warnIfFailed(camera->start(picture_));
+    else
+      camera->stop();
+  }
 }
 
 }  // namespace kiln

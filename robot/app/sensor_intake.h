@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 
 #include "robot/app/live_surroundings.h"
@@ -53,7 +54,7 @@ class SensorIntake {
   PerceptionJobs perception_;
   LiveSurroundings surroundings_;
   std::function<void(RgbImagePtr)> picture_;
-  bool camera_runs_ = false;
+  std::array<bool, 2> camera_runs_{};  ///< operator camera, head camera
 };
 
 }  // namespace kiln

@@ -6,6 +6,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "common/geom/frames.h"
+
 namespace kiln {
 namespace {
 
@@ -54,9 +56,11 @@ bool TelemetryHub::fsmDue(Stamp now, std::uint64_t step) {
 
 void TelemetryHub::onPicture(RgbImagePtr image) {
   if (!link_ || !link_->wanted(image->frame)) return;
-  const auto last = last_picture_.peek();
+  LatestValue<Stamp>& newest =
+      image->frame == frames::kOperatorCamera ? last_picture_ : last_head_picture_;
+  const auto last = newest.peek();
   if (last && toSeconds(image->stamp - *last) < 0.9 / config_.picture_rate_hz) return;
-  last_picture_.put(image->stamp);
+  newest.put(image->stamp);
   executor_.post({"jpeg", Duration::zero(), [this, image](std::stop_token) -> Delivery {
                     return [this, jpeg = encode(*image, config_.jpeg_quality)] {
                       link_->publish(jpeg);

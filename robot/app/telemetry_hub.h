@@ -96,7 +96,7 @@ class TelemetryHub {
   std::optional<Stamp> last_status_, last_fsm_, last_scene_, last_log_, last_localization_,
       last_trajectory_;
   std::uint64_t last_step_ = 0;
-  LatestValue<Stamp> last_picture_;
+  LatestValue<Stamp> last_picture_, last_head_picture_;
   BoundedQueue<LogLine> log_{256, DropPolicy::Oldest};
 };
 

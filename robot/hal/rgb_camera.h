@@ -4,7 +4,7 @@
 
 namespace kiln {
 
-/// A colour camera. In this release: the rear-top operator camera.
+/// A colour camera: the rear-top operator camera, or the one in the head.
 class RgbCamera {
  public:
   virtual ~RgbCamera() = default;

@@ -1,8 +1,27 @@
 #include <fmt/ranges.h>
 
 #include "robot/missions/catalog.h"
+#include "robot/scene/wall_site_map.h"
 
 namespace kiln {
+namespace {
+
+/// The site of the wall stands in arenas before its mission stands in the catalogue.
+Result<SiteFixtures> fixturesOf(const ArenaMap& arena, const SiteConfig& site) {
+  const MissionKind* kind = findMission(site.mission);
+  if (kind && kind->site) return kind->site(arena);
+  if (site.mission == kWallSite) {
+    const auto wall = loadWallSite(arena);
+    if (!wall) return tl::make_unexpected(wall.error());
+    return wall->fixtures();
+  }
+  return makeError(ErrorCode::InvalidInput,
+                   "arena '{}': the site {} belongs to mission '{}', which has none here: what "
+                   "stands there would not be an obstacle; take it out or name it furniture",
+                   arena.name, site.file, site.mission);
+}
+
+}  // namespace
 
 const MissionKind* findMission(const std::string& name) {
   for (const MissionKind& kind : missionKinds())
@@ -32,13 +51,7 @@ std::vector<std::string> missionNames() {
 
 Result<void> furnish(ArenaMap& arena) {
   for (const SiteConfig& site : arena.sites) {
-    const MissionKind* kind = findMission(site.mission);
-    if (!kind || !kind->site)
-      return makeError(ErrorCode::InvalidInput,
-                       "arena '{}': the site {} belongs to mission '{}', which has none here: what "
-                       "stands there would not be an obstacle; take it out or name it furniture",
-                       arena.name, site.file, site.mission);
-    auto fixtures = kind->site(arena);
+    auto fixtures = fixturesOf(arena, site);
     if (!fixtures) return tl::make_unexpected(fixtures.error());
     arena.fixtures[site.mission] = std::move(*fixtures);
   }

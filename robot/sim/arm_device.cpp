@@ -9,6 +9,7 @@ namespace kiln::sim {
 namespace {
 constexpr double kGravity_mps2 = 9.81;
 constexpr double kDriftTime_s = 600.0;
+constexpr double kNoticed_kg = 0.3;  ///< less than a brick: the head's own error
 }  // namespace
 
 ArmDevice::ArmDevice(const ArmDeviceConfig& config, const RobotGeometry& robot,
@@ -126,6 +127,7 @@ void ArmDevice::control(Stamp now, double step_s, Physics& physics) {
     // Brakes hold where the arm came to rest; they do not press on against an obstacle.
     for (int i = 0; i < 6; ++i) q_ref_[i] = q[i] + std::clamp(q_ref_[i] - q[i], -0.02, 0.02);
   }
+  carryPayload(physics);
   physics.accelerateArm(w * w * (q_ref_ - q) + 2.0 * w * (qd_ref_ - qd));
 }
 
@@ -142,7 +144,23 @@ Vector6d ArmDevice::contactWrench(const Physics& physics) const {
     sum.head<3>() += force;
     sum.tail<3>() += lever.cross(force);
   }
+  if (physics.bricks() == nullptr) return sum;
+  const GripState& grip = physics.bricks()->grip();
+  const Eigen::Matrix3d R = X_map_armbase.linear().transpose();
+  const Eigen::Vector3d force = R * grip.force_n;
+  const Eigen::Vector3d lever = X_map_armbase.inverse() * grip.p_map - X_armbase_tool.translation();
+  sum.head<3>() += force;
+  sum.tail<3>() += R * grip.torque_nm + lever.cross(force);
   return sum;
+}
+
+/// What was told beyond the head itself: the controller carries it, as it carries the arm.
+void ArmDevice::carryPayload(Physics& physics) const {
+  if (physics.bricks() == nullptr) return;
+  const double kg = payload_.mass_kg - config_.head_kg;
+  if (kg < kNoticed_kg) return physics.setCarried(0.0, Eigen::Vector3d::Zero());
+  const Eigen::Vector3d head(0, 0, 0.09);  // nominal, as TrueRobot's
+  physics.setCarried(kg, (payload_.mass_kg * payload_.p_flange_com - config_.head_kg * head) / kg);
 }
 
 /// A mass at the flange pulls with m (g - a); the head's own turning inertia is left out.

@@ -50,6 +50,7 @@ class ArmDevice {
  private:
   [[nodiscard]] std::string refusal(double since_s, const Vector6d& q, const Vector6d& qd) const;
   void advanceReference(Stamp now, double step_s);
+  void carryPayload(Physics& physics) const;
   /// Contacts of the arm and load of the head less what was told, at the tool, arm_base axes.
   [[nodiscard]] Vector6d contactWrench(const Physics& physics) const;
   [[nodiscard]] Vector6d uncompensatedLoad(double step_s, const Physics& physics);

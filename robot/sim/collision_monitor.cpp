@@ -9,7 +9,8 @@ constexpr Duration kSameTouch = std::chrono::seconds(1);
 
 void CollisionMonitor::observe(Stamp now, const std::vector<BodyContact>& contacts) {
   for (const BodyContact& contact : contacts) {
-    if ((contact.wheel && contact.floor) || contact.normal_n <= threshold_n_) continue;
+    if (contact.planned || (contact.wheel && contact.floor) || contact.normal_n <= threshold_n_)
+      continue;
     bool known = false;
     for (std::size_t i = collisions_.size(); i-- > 0 && !known;) {
       if (now - last_seen_[i] > kSameTouch || collisions_[i].a != contact.a ||

@@ -7,7 +7,8 @@
 
 namespace kiln::sim {
 
-/// Contacts of the robot with anything but wheels on ground, above a force (scenario.md section 5).
+/// Contacts of the robot, or of what it holds, with anything but wheels on ground and what is
+/// planned (BodyContact), above a force (scenario.md section 5).
 /// One entry a touch: the same pair counts again only after a second apart.
 class CollisionMonitor {
  public:

@@ -18,6 +18,8 @@ constexpr std::size_t kNoiseTable = 1u << 16;
 constexpr float kPaneTint = 0.20F;
 constexpr float kPaneRadius = 0.40F;   // m, encloses a fire box
 constexpr float kShadowReach = 60.0F;  // m
+constexpr double kMeanGrey = 118.0;
+constexpr float kLeastGain = 0.4F, kMostGain = 4.0F;
 const Eigen::Vector3f kPaneColour(206, 228, 232);
 
 /// Everything seen along one ray.
@@ -31,23 +33,26 @@ struct Sample {
 }  // namespace
 
 struct ColourCamera::Impl {
-  Impl(const WorldConfig& config, const TrueArena& arena, const RobotGeometry& robot)
-      : camera(config.camera),
-        X_base_camera(arena.robot.X_base_operatorcamera),
-        scene(config, arena, robot, true),
-        columns(config.camera.width / kBlock + 1),
-        rows(config.camera.height / kBlock + 1),
-        focal(static_cast<float>(CameraModel::fromHorizontalFov(config.camera.width,
-                                                                config.camera.height,
-                                                                config.camera.hfov_deg * kDeg)
-                                     .fx)) {
+  Impl(const WorldConfig& config, const TrueArena& arena, const RobotGeometry& r, CameraMount m)
+      : mount(m),
+        camera(m == CameraMount::Mast ? config.camera : config.head_camera),
+        robot(r),
+        X_mount_camera(m == CameraMount::Mast ? arena.robot.X_base_operatorcamera
+                                              : arena.robot.X_flange_rgb),
+        scene(config, arena, r, true),
+        light{arena.to_sun.cast<float>()},
+        columns(camera.width / kBlock + 1),
+        rows(camera.height / kBlock + 1),
+        focal(static_cast<float>(
+            CameraModel::fromHorizontalFov(camera.width, camera.height, camera.hfov_deg * kDeg)
+                .fx)) {
     for (const TrueFirePlace& place : arena.fire_places) {
       fire_boxes.emplace_back(
           (place.X_map_front * Eigen::Vector3d(-0.5 * place.box_m, 0, 0)).cast<float>());
     }
     Random random(0, "camera noise");
     for (std::size_t i = 0; i < kNoiseTable; ++i) {
-      noise.push_back(static_cast<std::int8_t>(std::lround(random.normal(config.camera.noise))));
+      noise.push_back(static_cast<std::int8_t>(std::lround(random.normal(camera.noise))));
     }
   }
 
@@ -71,8 +76,20 @@ struct ColourCamera::Impl {
     return corners[static_cast<std::size_t>(row * columns + column)];
   }
 
+  [[nodiscard]] Eigen::Isometry3d X_map_camera(const SceneState& state) const {
+    if (mount == CameraMount::Mast) return state.X_map_base * X_mount_camera;
+    return state.X_map_base * robot.X_base_flange(state.q) * X_mount_camera;
+  }
+  /// It looks out of the gripper's box.
+  [[nodiscard]] std::uint32_t sees() const {
+    return mount == CameraMount::Mast ? mask::kColour : mask::kColour & ~mask::kGripper;
+  }
+  void expose(const std::vector<std::uint8_t>& picture);
+
+  CameraMount mount;
   CameraConfig camera;
-  Eigen::Isometry3d X_base_camera;
+  RobotGeometry robot;
+  Eigen::Isometry3d X_mount_camera;
   RayScene scene;
   Daylight light;
   int columns, rows;
@@ -88,7 +105,19 @@ struct ColourCamera::Impl {
   std::vector<std::int8_t> noise;
   std::size_t noise_at = 0;
   std::uint64_t seq = 0;
+  float gain = 1.0F;
 };
+
+/// Mean grey towards kMeanGrey, a third of the way in stops with every picture.
+void ColourCamera::Impl::expose(const std::vector<std::uint8_t>& picture) {
+  if (!camera.auto_exposure) return;
+  double sum = 0.0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < picture.size(); i += 97, ++count) sum += picture[i];
+  const double mean = std::max(4.0, sum / static_cast<double>(std::max<std::size_t>(1, count)));
+  gain = std::clamp(gain * static_cast<float>(std::pow(kMeanGrey / mean, 1.0 / 3.0)), kLeastGain,
+                    kMostGain);
+}
 
 /// Acrylic before what the rays have met; asked only of rays that pass near a fire box.
 void ColourCamera::Impl::castPanes(std::vector<Sample>& samples) {
@@ -175,7 +204,7 @@ void ColourCamera::Impl::put(std::vector<std::uint8_t>& out, int u, int v,
   std::uint8_t* pixel = out.data() + 3 * static_cast<std::size_t>(at);
   const int n = noise[(noise_at + static_cast<std::size_t>(at)) % kNoiseTable];
   for (int k = 0; k < 3; ++k)
-    pixel[k] = static_cast<std::uint8_t>(std::clamp(static_cast<int>(c[k]) + n, 0, 255));
+    pixel[k] = static_cast<std::uint8_t>(std::clamp(static_cast<int>(gain * c[k]) + n, 0, 255));
 }
 
 /// One plane, one material: the light is worked out once, the pattern and the shadow's edge pixel
@@ -219,20 +248,20 @@ void ColourCamera::Impl::fillPlain(int column, int row, std::vector<std::uint8_t
 }
 
 ColourCamera::ColourCamera(const WorldConfig& config, const TrueArena& arena,
-                           const RobotGeometry& robot)
-    : impl_(std::make_unique<Impl>(config, arena, robot)) {}
+                           const RobotGeometry& robot, CameraMount mount)
+    : impl_(std::make_unique<Impl>(config, arena, robot, mount)) {}
 ColourCamera::~ColourCamera() = default;
 
 RgbImagePtr ColourCamera::render(const SceneState& state) {
   Impl& w = *impl_;
   w.scene.update(state);
-  const Eigen::Isometry3d X = state.X_map_base * w.X_base_camera;
+  const Eigen::Isometry3d X = w.X_map_camera(state);
   w.R = X.linear().cast<float>();
   w.origin = X.translation().cast<float>();
   auto image = std::make_shared<RgbImage>();
   image->stamp = state.stamp;
   image->seq = ++w.seq;
-  image->frame = frames::kOperatorCamera;
+  image->frame = w.mount == CameraMount::Mast ? frames::kOperatorCamera : frames::kRgb;
   image->width = w.camera.width;
   image->height = w.camera.height;
   image->data.resize(3 * static_cast<std::size_t>(w.camera.width) *
@@ -245,7 +274,7 @@ RgbImagePtr ColourCamera::render(const SceneState& state) {
       w.rays.push_back(
           {w.origin,
            w.direction(static_cast<float>(column * kBlock), static_cast<float>(row * kBlock)), 1e4F,
-           mask::kColour});
+           w.sees()});
     }
   }
   w.castSamples(w.corners);
@@ -261,7 +290,7 @@ RgbImagePtr ColourCamera::render(const SceneState& state) {
       for (int k = 0; k < kBlock * kBlock; ++k) {
         const float u = static_cast<float>(column * kBlock + k % kBlock),
                     v = static_cast<float>(row * kBlock + k / kBlock);
-        w.rays.push_back({w.origin, w.direction(u, v), 1e4F, mask::kColour});
+        w.rays.push_back({w.origin, w.direction(u, v), 1e4F, w.sees()});
       }
     }
   }
@@ -273,6 +302,7 @@ RgbImagePtr ColourCamera::render(const SceneState& state) {
     w.put(image->data, column * kBlock + k % kBlock, row * kBlock + k / kBlock,
           w.colour(s, w.rays[i].direction));
   }
+  w.expose(image->data);
   return image;
 }
 

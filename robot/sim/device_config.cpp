@@ -112,6 +112,13 @@ void CameraConfig::visit(ConfigArchive& a) {
   a.field("height", height, "px", 16, 2160, "image");
   a.field("hfov_deg", hfov_deg, "deg", 10, 150, "horizontal field of view");
   a.field("noise", noise, "grey levels", 0, 50, "rms");
+  a.field("auto_exposure", auto_exposure, "brightness follows what it sees");
+}
+
+void SunConfig::visit(ConfigArchive& a) {
+  a.field("drawn", drawn, "by seed, in azimuth and elevation");
+  a.field("min_elevation_deg", min_elevation_deg, "deg", 1, 90, "lowest by seed");
+  a.field("max_elevation_deg", max_elevation_deg, "deg", 1, 90, "highest by seed");
 }
 
 void PerturbationConfig::visit(ConfigArchive& a) {

@@ -1,5 +1,7 @@
 #include "robot/sim/device_wire.h"
 
+#include "common/geom/frames.h"
+
 namespace kiln::sim {
 namespace {
 
@@ -36,6 +38,24 @@ void writeColour(const RgbImage& image, v1::device::ColourFrame& m) {
   m.set_rgb(bytes(image.data));
 }
 
+void writeGripper(const GripperState& state, v1::device::GripperReport& m) {
+  m.set_on(static_cast<std::uint32_t>(state.on.to_ulong()));
+  for (const double current : state.current_a) m.add_current_a(current);
+  m.set_contact(state.contact);
+}
+
+void writeStorage(const StorageState& state, v1::device::StorageReport& m) {
+  for (const CompartmentState& from : state.compartments) {
+    v1::device::CompartmentReport& to = *m.add_compartments();
+    to.set_position_m(from.position_m);
+    to.set_target_m(from.target_m);
+    to.set_current_a(from.current_a);
+    to.set_moving(from.moving);
+    to.set_blocked(from.blocked);
+  }
+  m.set_setpoint_lost(state.setpoint_lost);
+}
+
 }  // namespace
 
 Result<WorldCommands> fromProto(const v1::device::Advance& m) {
@@ -66,9 +86,17 @@ Result<WorldCommands> fromProto(const v1::device::Advance& m) {
   }
   if (m.has_pumps()) c.pumps = {m.pumps().left(), m.pumps().right()};
   if (m.has_sensors()) {
-    c.sensors =
-        SensorRequest{m.sensors().lidar(), m.sensors().thermal(), m.sensors().operator_camera()};
+    c.sensors = SensorRequest{m.sensors().lidar(), m.sensors().thermal(),
+                              m.sensors().operator_camera(), m.sensors().head_camera()};
   }
+  if (m.has_magnets()) {
+    if (m.magnets().on() >> kMagnets != 0)
+      return makeError(ErrorCode::InvalidInput, "magnets {:#x}: there are {}", m.magnets().on(),
+                       kMagnets);
+    c.magnets = MagnetMask(m.magnets().on());
+  }
+  if (m.has_storage())
+    c.storage.emplace(m.storage().position_m().begin(), m.storage().position_m().end());
   if (m.has_payload()) {
     if (m.payload().com_m_size() != 3) {
       return makeError(ErrorCode::Truncated, "payload has a centre of {} numbers; it needs 3",
@@ -112,7 +140,10 @@ void toProto(const WorldReport& report, v1::device::Report& m) {
   m.mutable_pumps()->set_heartbeat_lost(report.pumps.heartbeat_lost);
   for (const PointCloudPtr& scan : report.lidar) writeLidar(*scan, *m.add_lidar());
   for (const ThermalImagePtr& image : report.thermal) writeThermal(*image, *m.add_thermal());
-  for (const RgbImagePtr& image : report.colour) writeColour(*image, *m.add_colour());
+  for (const RgbImagePtr& image : report.colour)
+    writeColour(*image, image->frame == frames::kRgb ? *m.add_head_colour() : *m.add_colour());
+  if (report.gripper) writeGripper(*report.gripper, *m.mutable_gripper());
+  if (report.storage) writeStorage(*report.storage, *m.mutable_storage());
   m.set_resets(report.resets);
   m.set_refused(report.refused);
 }
@@ -127,20 +158,31 @@ v1::device::Device toProto(DeviceKind kind) {
       return v1::device::DEVICE_THERMAL_CAMERA;
     case DeviceKind::OperatorCamera:
       return v1::device::DEVICE_OPERATOR_CAMERA;
+    case DeviceKind::HeadCamera:
+      return v1::device::DEVICE_HEAD_CAMERA;
+    case DeviceKind::Gripper:
+      return v1::device::DEVICE_GRIPPER;
+    case DeviceKind::Storage:
+      return v1::device::DEVICE_STORAGE;
   }
   return v1::device::DEVICE_UNSPECIFIED;
 }
 
 void leaveOut(const DeviceSet& devices, v1::device::Report& report) {
   if (!devices.contains(DeviceKind::Pumps)) report.clear_pumps();
+  if (!devices.contains(DeviceKind::Gripper)) report.clear_gripper();
+  if (!devices.contains(DeviceKind::Storage)) report.clear_storage();
 }
 
 void leaveOut(const DeviceSet& devices, WorldCommands& commands) {
   if (!devices.contains(DeviceKind::Pumps)) commands.pumps.reset();
+  if (!devices.contains(DeviceKind::Gripper)) commands.magnets.reset();
+  if (!devices.contains(DeviceKind::Storage)) commands.storage.reset();
   if (!commands.sensors) return;
   commands.sensors->lidar &= devices.contains(DeviceKind::Lidar);
   commands.sensors->thermal &= devices.contains(DeviceKind::ThermalCamera);
   commands.sensors->operator_camera &= devices.contains(DeviceKind::OperatorCamera);
+  commands.sensors->head_camera &= devices.contains(DeviceKind::HeadCamera);
 }
 
 }  // namespace kiln::sim

@@ -85,6 +85,12 @@ std::span<const FaultKind> faultKinds() {
        false,
        "the motor controllers drive factor x commanded + offset; encoders stay honest; only "
        "missing setpoints stop an offset"},
+      {"magnet_broken", "MAGNET", {1}, false, "that magnet (1 to 8) takes no current"},
+      {"storage_jammed",
+       "COMPARTMENT",
+       {1},
+       false,
+       "something holds that compartment (1: the front one) where it is"},
       {"fire_box_misplaced",
        "DISTANCE_M,PLACE",
        {0.2, 0},

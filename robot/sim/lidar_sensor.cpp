@@ -19,6 +19,7 @@ constexpr std::array<int, kLasers> kElevation = {-15, 1, -13, 3,  -11, 5,  -9, 7
 float reflectivity(Material m) {
   switch (m) {
     case Material::Floor:
+    case Material::Ground:
       return 30;
     case Material::Wall:
       return 60;

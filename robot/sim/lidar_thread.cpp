@@ -1,5 +1,6 @@
 #include "robot/sim/lidar_thread.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace kiln::sim {
@@ -11,6 +12,9 @@ SceneState between(const SceneState& a, const SceneState& b) {
   mid.stamp = a.stamp + (b.stamp - a.stamp) / 2;
   mid.X_map_base = interpolate(a.X_map_base, b.X_map_base, 0.5);
   mid.q = 0.5 * (a.q + b.q);
+  for (std::size_t i = 0; i < std::min(a.bricks.size(), b.bricks.size()); ++i)
+    if (a.bricks[i].matrix() != b.bricks[i].matrix())
+      mid.bricks[i] = interpolate(a.bricks[i], b.bricks[i], 0.5);
   return mid;
 }
 

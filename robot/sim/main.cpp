@@ -27,11 +27,11 @@ struct Options {
   kiln::sim::WorldServer::Config server;
 };
 
-const std::map<std::string, kiln::DeviceKind> kDeviceNames{
-    {"pumps", kiln::DeviceKind::Pumps},
-    {"lidar", kiln::DeviceKind::Lidar},
-    {"thermal", kiln::DeviceKind::ThermalCamera},
-    {"camera", kiln::DeviceKind::OperatorCamera}};
+std::vector<std::string> deviceNames() {
+  std::vector<std::string> names;
+  for (const kiln::DeviceKind kind : kiln::kDeviceKinds) names.emplace_back(kiln::shortName(kind));
+  return names;
+}
 
 void addOptions(CLI::App& app, Options& o) {
   o.server.endpoint = "ipc:///tmp/kiln-sim";
@@ -52,7 +52,7 @@ void addOptions(CLI::App& app, Options& o) {
   app.add_option("--fault", o.faults,
                  "NAME[=NUMBER,...]@SECONDS[:SECONDS], begin and duration; may be repeated");
   app.add_option("--without", o.without, "The robot lacks this device; may be repeated")
-      ->check(CLI::IsMember(kDeviceNames));
+      ->check(CLI::IsMember(deviceNames()));
   app.footer(kiln::sim::faultHelp());
 }
 
@@ -93,13 +93,14 @@ int main(int argc, char** argv) {
 
   // Before the world starts its threads: the LiDAR's inherits this.
   if (!options.server.lockstep) kiln::runBeforeOthers();
-  for (const std::string& device : options.without)
-    options.server.devices.erase(kDeviceNames.at(device));
   const auto config = loadWorld(options);
   if (!config) return fail(config.error());
   auto world =
       kiln::sim::World::create(*config, options.seed, {.render_colour = options.server.lockstep});
   if (!world) return fail(world.error());
+  options.server.devices = (*world)->devices();
+  for (const std::string& device : options.without)
+    options.server.devices.erase(*kiln::deviceNamed(device));
   const kiln::SteadyClock clock;
   auto server = kiln::sim::WorldServer::create(options.server, **world, clock);
   if (!server) return fail(server.error());

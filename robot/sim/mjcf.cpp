@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "robot/sim/arm_hull.h"
+#include "robot/sim/wall_mjcf.h"
 
 namespace kiln::sim {
 namespace {
@@ -72,12 +73,15 @@ class Writer {
   std::string text_;
 };
 
-void writeOptions(Writer& w, const WorldConfig& config) {
+void writeOptions(Writer& w, const WorldConfig& config, const TrueArena& arena) {
   const double contact_s = 2 * config.physics.step_s + config.physics.contact_slack_s;
   w.line(R"(<compiler angle="radian" autolimits="true" inertiafromgeom="auto"/>)");
   w.line(R"(<option timestep="{:.6g}" solver="Newton" cone="pyramidal" iterations="50"/>)",
          config.physics.step_s);
-  w.line(R"(<size njmax="1200" nconmax="300" nstack="600000"/>)");
+  if (arena.wall.present())  // simulation.md: 290 contacts, 1100 rows; some 600 with full bins
+    w.line(R"(<size njmax="5000" nconmax="1500" nstack="4000000"/>)");
+  else
+    w.line(R"(<size njmax="1200" nconmax="300" nstack="600000"/>)");
   w.line(
       R"(<default><geom condim="3" friction="{:.4g} 0.005 0.0001" solref="{:.6g} 1" solimp=".95 .99 .001"/></default>)",
       config.physics.friction, contact_s);
@@ -161,7 +165,8 @@ void writeArmLink(Writer& w, const WorldConfig& config, const RobotGeometry& rob
   }
 }
 
-void writeHead(Writer& w, const TrueArena& arena, const RobotGeometry& robot) {
+void writeHead(Writer& w, const WorldConfig& config, const TrueArena& arena,
+               const RobotGeometry& robot) {
   const UrKinematics& k = robot.arm;
   const Eigen::Isometry3d X(Eigen::Translation3d(k.a[5], 0, k.d[5]) *
                             Eigen::AngleAxisd(k.alpha[5], Eigen::Vector3d::UnitX()));
@@ -178,6 +183,7 @@ void writeHead(Writer& w, const TrueArena& arena, const RobotGeometry& robot) {
   w.line(
       R"(<geom name="hose nozzle" type="capsule" size="0.01" fromto="{:.6g} {:.6g} {:.6g} {:.6g} {:.6g} {:.6g}" {} mass="0"/>)",
       root.x(), root.y(), root.z(), tip.x(), tip.y(), tip.z() - 0.01, kRobotBits);
+  if (arena.wall.present()) w.text_ += wall_mjcf::face(config, robot);
   w.line("</body>");
 }
 
@@ -196,12 +202,13 @@ void writeRobot(Writer& w, const WorldConfig& config, const TrueArena& arena,
   }
   writeWheels(w, config, robot);
   for (std::size_t i = 0; i < 6; ++i) writeArmLink(w, config, robot, i);
-  writeHead(w, arena, robot);
+  writeHead(w, config, arena, robot);
   for (int i = 0; i < 6; ++i) w.line("</body>");
+  w.text_ += wall_mjcf::compartments(config, robot);
   w.line("</body>");
 }
 
-void writeActuators(Writer& w, const WorldConfig& config) {
+void writeActuators(Writer& w, const WorldConfig& config, const RobotGeometry& robot) {
   w.line("<actuator>");
   for (int i = 0; i < 4; ++i) {
     const double torque = config.base.steer_torque_nm;
@@ -218,6 +225,7 @@ void writeActuators(Writer& w, const WorldConfig& config) {
     w.line(R"(<motor name="{0}" joint="{0}" ctrlrange="{1:.4g} {2:.4g}"/>)", names::kJoint[i],
            -torque, torque);
   }
+  w.text_ += wall_mjcf::motors(robot);
   w.line("</actuator>");
 }
 
@@ -226,17 +234,19 @@ void writeActuators(Writer& w, const WorldConfig& config) {
 std::string mjcf(const WorldConfig& config, const TrueArena& arena, const RobotGeometry& robot) {
   Writer w;
   w.line(R"(<mujoco model="kiln">)");
-  writeOptions(w, config);
+  writeOptions(w, config, arena);
   w.line("<worldbody>");
   writeArena(w, arena);
   writeRobot(w, config, arena, robot);
+  w.text_ += wall_mjcf::bricks(config, arena);
   w.line("</worldbody>");
   // Neighbours but one along the wrist touch by design of the capsules; the flange is rigid with
   // link 6.
   w.line(
       R"(<contact><exclude body1="arm link 4" body2="arm link 6"/><exclude body1="arm link 5" body2="{0}"/></contact>)",
       names::kFlange);
-  writeActuators(w, config);
+  if (arena.wall.present()) w.text_ += wall_mjcf::grips(config, arena);
+  writeActuators(w, config, robot);
   w.line("</mujoco>");
   return w.text_;
 }

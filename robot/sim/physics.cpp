@@ -1,16 +1,16 @@
 #include "robot/sim/physics.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <cstring>
-#include <map>
 
 #include <mujoco/mujoco.h>
 
 #include "common/core/log.h"
 #include "robot/sim/box_contact_filter.h"
 #include "robot/sim/mjcf.h"
+#include "robot/sim/physics_impl.h"
+#include "robot/sim/wall_mjcf.h"
 
 namespace kiln::sim {
 namespace {
@@ -49,19 +49,16 @@ Result<mjModel*> loadModel(const std::string& xml) {
   return model;
 }
 
-struct GeomInfo {
-  std::string name;
-  bool robot = false, wheel = false, arm = false, floor = false;
-};
-
 std::vector<GeomInfo> describeGeoms(const mjModel* m) {
   std::vector<GeomInfo> out(static_cast<std::size_t>(m->ngeom));
   for (int g = 0; g < m->ngeom; ++g) {
     GeomInfo& info = out[static_cast<std::size_t>(g)];
     const char* name = mj_id2name(m, mjOBJ_GEOM, g);
     info.name = name == nullptr ? "?" : name;
-    info.robot = m->geom_contype[g] != 1;
+    info.robot =
+        m->geom_contype[g] == 2 || m->geom_contype[g] == 4 || m->geom_contype[g] == kFaceBit;
     info.wheel = m->geom_contype[g] == 4;
+    info.storage = info.name.starts_with("storage");
     info.floor = info.name.starts_with("floor");
     info.arm = info.robot && (info.name.starts_with("arm") || info.name.starts_with("head") ||
                               info.name.starts_with("hose"));
@@ -72,32 +69,16 @@ std::vector<GeomInfo> describeGeoms(const mjModel* m) {
 
 }  // namespace
 
-struct Physics::Impl {
-  mjModel* m = nullptr;
-  mjData* d = nullptr;
-  std::vector<GeomInfo> geoms;
-  int base_body = 0, flange_body = 0, obstacle_body = 0, obstacle_mocap = 0;
-  int base_qpos = 0, base_qvel = 0;
-  std::array<int, 4> steer_joint{}, drive_joint{};
-  std::array<int, 6> arm_joint{};
-  std::array<int, 4> steer_motor{}, drive_motor{};
-  std::array<int, 6> arm_motor{};
-  std::vector<mjtNum> mass_matrix;
-  std::vector<BodyContact> contacts;
+Physics::Impl::~Impl() {
+  if (d != nullptr) mj_deleteData(d);
+  if (m != nullptr) mj_deleteModel(m);
+}
 
-  ~Impl() {
-    if (d != nullptr) mj_deleteData(d);
-    if (m != nullptr) mj_deleteModel(m);
-  }
-  void resolveNames();
-  void placeBase(const Eigen::Isometry3d& X_map_base);
-  void collectContacts();
-  void setObstacle(const Eigen::Vector3d& p_map);
-  [[nodiscard]] bool isObstacle(int geom) const { return m->geom_bodyid[geom] == obstacle_body; }
-  [[nodiscard]] JointState joint(int id) const {
-    return {d->qpos[m->jnt_qposadr[id]], d->qvel[m->jnt_dofadr[id]]};
-  }
-};
+bool Physics::Impl::isObstacle(int geom) const { return m->geom_bodyid[geom] == obstacle_body; }
+
+JointState Physics::Impl::joint(int id) const {
+  return {d->qpos[m->jnt_qposadr[id]], d->qvel[m->jnt_dofadr[id]]};
+}
 
 void Physics::Impl::resolveNames() {
   geoms = describeGeoms(m);
@@ -116,49 +97,13 @@ void Physics::Impl::resolveNames() {
   for (std::size_t i = 0; i < 6; ++i) {
     arm_joint[i] = mj_name2id(m, mjOBJ_JOINT, names::kJoint[i]);
     arm_motor[i] = mj_name2id(m, mjOBJ_ACTUATOR, names::kJoint[i]);
+    arm_dof[i] = m->jnt_dofadr[arm_joint[i]];
   }
-  mass_matrix.resize(static_cast<std::size_t>(m->nv) * static_cast<std::size_t>(m->nv));
-}
-
-/// Sums the points of each touching pair. Forces belong to the step that was just taken.
-void Physics::Impl::collectContacts() {
-  contacts.clear();
-  std::map<std::pair<int, int>, std::size_t> seen;
-  for (int i = 0; i < d->ncon; ++i) {
-    const mjContact& c = d->contact[i];
-    if (c.efc_address < 0) continue;
-    int a = c.geom1, b = c.geom2;
-    double sign = -1.0;  // mj_contactForce is the force on geom2
-    const auto info = [&](int g) -> const GeomInfo& { return geoms[static_cast<std::size_t>(g)]; };
-    if (!info(a).robot || (info(b).arm && !info(a).arm)) {
-      std::swap(a, b);
-      sign = 1.0;
-    }
-    mjtNum f[6];
-    mj_contactForce(m, d, i, f);
-    Eigen::Vector3d force = Eigen::Vector3d::Zero();
-    for (int axis = 0; axis < 3; ++axis)
-      force += sign * f[axis] *
-               Eigen::Vector3d(c.frame[3 * axis], c.frame[3 * axis + 1], c.frame[3 * axis + 2]);
-    const auto [it, fresh] = seen.try_emplace({a, b}, contacts.size());
-    if (fresh) {
-      BodyContact contact;
-      contact.a = info(a).name;
-      contact.b = info(b).name;
-      contact.wheel = info(a).wheel;
-      contact.floor = info(b).floor;
-      contact.arm = info(a).arm && !info(b).arm;
-      contacts.push_back(contact);
-    }
-    BodyContact& contact = contacts[it->second];
-    // Force-weighted mean of the points, kept as a running mean.
-    const double before = contact.normal_n;
-    contact.normal_n += f[0];
-    const Eigen::Vector3d p(c.pos[0], c.pos[1], c.pos[2]);
-    contact.point = contact.normal_n > 1e-9
-                        ? Eigen::Vector3d((before * contact.point + f[0] * p) / contact.normal_n)
-                        : p;
-    contact.force_on_a += force;
+  for (std::size_t i = 0;; ++i) {
+    const int id = mj_name2id(m, mjOBJ_JOINT, names::compartment(i).c_str());
+    if (id < 0) break;
+    compartment_joint.push_back(id);
+    compartment_motor.push_back(mj_name2id(m, mjOBJ_ACTUATOR, names::compartment(i).c_str()));
   }
 }
 
@@ -177,50 +122,21 @@ Result<std::unique_ptr<Physics>> Physics::create(const WorldConfig& config, cons
   impl->d = mj_makeData(impl->m);
   if (impl->d == nullptr) return makeError(ErrorCode::Fault, "MuJoCo has no memory for the world");
   impl->resolveNames();
+  impl->wall = config.wall;
+  if (arena.wall.present())
+    impl->bricks = std::make_unique<BrickBodies>(impl->m, impl->d, config, arena, robot);
   mj_step1(impl->m, impl->d);
   return std::unique_ptr<Physics>(new Physics(std::move(impl)));
 }
 
 void Physics::step() {
-  mj_step2(impl_->m, impl_->d);
-  impl_->collectContacts();
-  mj_step1(
-      impl_->m,
-      impl_->d);  // positions, velocities and inertia for the devices and sensors of this instant
-}
-
-/// Half a millimetre above the ground, so that no contact begins deep inside it.
-void Physics::Impl::placeBase(const Eigen::Isometry3d& X) {
-  const Eigen::Vector3d p = X * Eigen::Vector3d(0, 0, 0.0005);
-  const Eigen::Quaterniond r(X.linear());
-  mjtNum* base = d->qpos + base_qpos;
-  const double pose[7] = {p.x(), p.y(), p.z(), r.w(), r.x(), r.y(), r.z()};
-  std::copy(pose, pose + 7, base);
-}
-
-void Physics::carryTo(const Eigen::Isometry3d& X, const Vector6d& q) {
-  mjModel* m = impl_->m;
-  mjData* d = impl_->d;
-  const Eigen::Vector3d obstacle(d->mocap_pos + 3 * impl_->obstacle_mocap);
-  const double time = d->time;
-  mj_resetData(m, d);
-  d->time = time;
-  impl_->setObstacle(obstacle);
-  impl_->placeBase(X);
-  for (std::size_t i = 0; i < 6; ++i)
-    d->qpos[m->jnt_qposadr[impl_->arm_joint[i]]] = q[static_cast<Eigen::Index>(i)];
-  impl_->contacts.clear();
-  mj_step1(m, d);
-}
-
-void Physics::displace(const Eigen::Isometry3d& X) {
-  mjtNum* v = impl_->d->qvel + impl_->base_qvel;  // linear in map, angular in base
-  const Eigen::Vector3d turned =
-      X.linear() * (X_map_base().linear().transpose() * Eigen::Vector3d(v[0], v[1], v[2]));
-  std::copy(turned.data(), turned.data() + 3, v);
-  impl_->placeBase(X);
-  impl_->contacts.clear();
-  mj_step1(impl_->m, impl_->d);
+  Impl& w = *impl_;
+  if (w.bricks) w.bricks->pull();
+  mj_step2(w.m, w.d);
+  w.collectContacts();
+  if (w.bricks) w.bricks->settle(w.m->opt.timestep);
+  // Positions, velocities and inertia for the devices and sensors of this instant.
+  mj_step1(w.m, w.d);
 }
 
 void Physics::moveBox(const std::string& name, const Eigen::Isometry3d& X) {
@@ -261,24 +177,27 @@ void Physics::setDriveTorque(std::size_t wheel, double torque) {
   impl_->d->ctrl[impl_->drive_motor[wheel]] = torque;
 }
 
-Vector6d Physics::accelerateArm(const Vector6d& qdd) {
-  mjModel* m = impl_->m;
-  mjData* d = impl_->d;
-  mj_fullM(m, impl_->mass_matrix.data(), d->qM);
-  Vector6d torque;
-  for (std::size_t i = 0; i < 6; ++i) {
-    const int row = m->jnt_dofadr[impl_->arm_joint[i]];
-    double sum = d->qfrc_bias[row];
-    for (std::size_t j = 0; j < 6; ++j) {
-      const int column = m->jnt_dofadr[impl_->arm_joint[j]];
-      sum += impl_->mass_matrix[static_cast<std::size_t>(row * m->nv + column)] *
-             qdd[static_cast<Eigen::Index>(j)];
-    }
-    torque[static_cast<Eigen::Index>(i)] = sum;
-    d->ctrl[impl_->arm_motor[i]] = sum;
-  }
-  return torque;
+void Physics::setCompartmentForce(std::size_t compartment, double force_n) {
+  impl_->d->ctrl[impl_->compartment_motor[compartment]] = force_n;
 }
+
+void Physics::setCarried(double mass_kg, const Eigen::Vector3d& p_flange_com) {
+  impl_->carried_kg = mass_kg;
+  impl_->p_flange_carried = p_flange_com;
+}
+
+JointState Physics::compartment(std::size_t compartment) const {
+  return impl_->joint(impl_->compartment_joint[compartment]);
+}
+
+std::vector<double> Physics::compartmentPositions() const {
+  std::vector<double> out;
+  for (const int joint : impl_->compartment_joint) out.push_back(impl_->joint(joint).position);
+  return out;
+}
+
+BrickBodies* Physics::bricks() { return impl_->bricks.get(); }
+const BrickBodies* Physics::bricks() const { return impl_->bricks.get(); }
 
 JointState Physics::steer(std::size_t wheel) const {
   return impl_->joint(impl_->steer_joint[wheel]);
@@ -301,9 +220,11 @@ Vector6d Physics::armVelocity() const {
   return qd;
 }
 
-Eigen::Isometry3d Physics::X_map_base() const {
-  const mjtNum* p = impl_->d->xpos + 3 * impl_->base_body;
-  const mjtNum* q = impl_->d->xquat + 4 * impl_->base_body;
+Eigen::Isometry3d Physics::X_map_base() const { return impl_->poseOf(impl_->base_body); }
+
+Eigen::Isometry3d Physics::Impl::poseOf(int body) const {
+  const mjtNum* p = d->xpos + 3 * body;
+  const mjtNum* q = d->xquat + 4 * body;
   Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
   X.translation() = Eigen::Vector3d(p[0], p[1], p[2]);
   X.linear() = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();

@@ -5,21 +5,23 @@
 #include <string>
 #include <vector>
 
+#include "robot/sim/brick_bodies.h"
 #include "robot/sim/true_arena.h"
 
 namespace kiln::sim {
 
 struct JointState {
-  double position = 0.0;  ///< rad
-  double velocity = 0.0;  ///< rad/s
+  double position = 0.0;  ///< rad, m
+  double velocity = 0.0;  ///< rad/s, m/s
 };
 
 /// One touching pair of bodies in one step, contact points summed.
 struct BodyContact {
-  std::string a, b;    ///< geom names, a on the robot; arena names without their index
-  bool wheel = false;  ///< a is a wheel
-  bool floor = false;  ///< b is the floor
-  bool arm = false;    ///< a belongs to arm, head or hose (and b is not of the arm)
+  std::string a, b;      ///< geom names, a on the robot or what it holds; arena names without index
+  bool wheel = false;    ///< a is a wheel
+  bool floor = false;    ///< b is the floor
+  bool arm = false;      ///< a belongs to arm, head or hose (and b is not of the arm)
+  bool planned = false;  ///< a grasp, a placement, or a brick in its bin: no collision
   double normal_n = 0.0;
   Eigen::Vector3d force_on_a = Eigen::Vector3d::Zero();  ///< N in map
   Eigen::Vector3d point = Eigen::Vector3d::Zero();       ///< mean contact point in map
@@ -36,7 +38,8 @@ class Physics {
   ~Physics();
 
   void step();
-  /// Puts the robot at rest there. The rest of the world stays as it is.
+  /// Puts the robot at rest there, with what it has stored; what it holds is taken from it and
+  /// stays where it was. The rest of the world stays as it is.
   void carryTo(const Eigen::Isometry3d& X_map_base, const Vector6d& q);
   /// Puts the robot there as it is: joints, wheels and its velocities (in base) stay.
   void displace(const Eigen::Isometry3d& X_map_base);
@@ -49,6 +52,11 @@ class Physics {
 
   void setSteerTorque(std::size_t wheel, double torque_nm);
   void setDriveTorque(std::size_t wheel, double torque_nm);
+  /// Of the robot's compartments, N along their travel.
+  void setCompartmentForce(std::size_t compartment, double force_n);
+  /// What the arm's controller was told that hangs beyond the head: its weight and inertia are
+  /// carried by the torques too. Mass 0: nothing.
+  void setCarried(double mass_kg, const Eigen::Vector3d& p_flange_com);
   /// Joint torques that give the arm this acceleration against gravity and its own inertia, cut at
   /// the limits.
   /// @return the unlimited torques.
@@ -62,6 +70,12 @@ class Physics {
   /// Linear velocity (map) of a point fixed to the flange.
   [[nodiscard]] Eigen::Vector3d flangePointVelocity(const Eigen::Vector3d& p_map) const;
   [[nodiscard]] const std::vector<BodyContact>& contacts() const;
+  /// Along its travel: position m, velocity m/s.
+  [[nodiscard]] JointState compartment(std::size_t compartment) const;
+  [[nodiscard]] std::vector<double> compartmentPositions() const;
+  /// nullptr: this world has no bricks.
+  [[nodiscard]] BrickBodies* bricks();
+  [[nodiscard]] const BrickBodies* bricks() const;
 
  private:
   struct Impl;

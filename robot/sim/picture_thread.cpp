@@ -5,8 +5,9 @@
 namespace kiln::sim {
 
 PictureThread::PictureThread(const WorldConfig& config, const TrueArena& arena,
-                             const RobotGeometry& robot)
-    : camera_(config, arena, robot), thread_([this](std::stop_token stop) { work(stop); }) {}
+                             const RobotGeometry& robot, CameraMount camera)
+    : camera_(config, arena, robot, camera),
+      thread_([this](std::stop_token stop) { work(stop); }) {}
 
 void PictureThread::render(SceneState state) {
   {

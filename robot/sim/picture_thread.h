@@ -10,12 +10,13 @@
 
 namespace kiln::sim {
 
-/// Renders operator pictures beside the world, at a lower priority: physics and devices come first.
+/// Renders one camera's pictures beside the world, at a lower priority: physics and devices come first.
 /// A picture that is asked for while the last one is still in work replaces the waiting one.
 /// Thread-safe.
 class PictureThread {
  public:
-  PictureThread(const WorldConfig& config, const TrueArena& arena, const RobotGeometry& robot);
+  PictureThread(const WorldConfig& config, const TrueArena& arena, const RobotGeometry& robot,
+                CameraMount camera);
   void render(SceneState state);
   [[nodiscard]] std::vector<RgbImagePtr> finished() { return done_.drain(); }
 

@@ -45,6 +45,8 @@ RayScene::RayScene(const WorldConfig& config, const TrueArena& arena, const Robo
   addArena(arena);
   for (const TrueFirePlace& place : arena.fire_places) addFirePlace(place);
   addRobot(arena);
+  addStorage(arena.wall.present());
+  addBricks(arena);
   for (std::size_t i = 0; with_drops && i < kMaxDrops; ++i) {
     drops_.push_back(note(rays_.addSphere(kDropRadius, {0, 0, -5}, number(Material::Water), 0),
                           fire_.ambient_c));
@@ -176,6 +178,46 @@ void RayScene::addWheels() {
   }
 }
 
+void RayScene::addBricks(const TrueArena& arena) {
+  for (const TrueBrick& brick : arena.wall.bricks) {
+    bricks_.push_back(addSolid({brick.name, brickMaterial(brick.kind), brick.X_map_brick,
+                                brick.size_m, true, fire_.ambient_c}));
+    X_map_bricks_.push_back(brick.X_map_brick);
+  }
+}
+
+/// The compartments, and the face of the magnets as a plate.
+void RayScene::addStorage(bool face) {
+  const auto add = [&](const Eigen::Vector3d& size, Material m, std::uint32_t bits) {
+    return note(rays_.addBox(size, Eigen::Isometry3d::Identity(), number(m), bits),
+                fire_.ambient_c);
+  };
+  for (std::size_t i = 0; i < robot_.storage.size(); ++i)
+    for (const CompartmentBox& box : robot_.storage[i].boxes())
+      storage_.push_back(
+          {add(box.size_m, Material::Storage, mask::kRobot), i, box.X_compartment_box});
+  if (face)
+    moving_.push_back({add({0.17, 0.115, 0.005}, Material::Magnets, mask::kGripper), 6,
+                       robot_.X_flange_tool.pose() * Eigen::Translation3d(0, 0, -0.0025)});
+}
+
+/// Most of them lie still.
+void RayScene::updateBricks(const SceneState& state) {
+  for (std::size_t i = 0; i < std::min(bricks_.size(), state.bricks.size()); ++i) {
+    if (state.bricks[i].matrix() == X_map_bricks_[i].matrix()) continue;
+    X_map_bricks_[i] = state.bricks[i];
+    rays_.setPose(bricks_[i], state.bricks[i]);
+  }
+  for (const StoragePart& part : storage_) {
+    const double at = part.compartment < state.compartments_m.size()
+                          ? state.compartments_m[part.compartment]
+                          : 0.0;
+    rays_.setPose(part.id, state.X_map_base *
+                               robot_.storage[part.compartment].X_base_compartment(at) *
+                               part.X_compartment_box);
+  }
+}
+
 void RayScene::updateRobot(const SceneState& state) {
   const Eigen::Isometry3d X_map_armbase = state.X_map_base * robot_.X_base_armbase.pose();
   const auto frames = robot_.arm.frames(state.q);
@@ -274,6 +316,7 @@ void RayScene::update(const SceneState& state) {
   updateRobot(state);
   updateFire(state);
   updateDisturbances(state);
+  updateBricks(state);
   const std::size_t shown = std::min(drops_.size(), state.drops.size());
   for (std::size_t i = 0; i < std::max(shown, drops_shown_); ++i) {
     rays_.setMask(drops_[i], i < shown ? mask::kLightOnly : 0);

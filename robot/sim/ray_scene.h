@@ -65,10 +65,13 @@ class RayScene {
   void addCapsule(int link, const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius,
                   Material material);
   void addWheels();
+  void addBricks(const TrueArena& arena);
+  void addStorage(bool face);
   void updateFire(const SceneState& state);
   void updateRobot(const SceneState& state);
   void addDisturbances(const WorldConfig& config);
   void updateDisturbances(const SceneState& state);
+  void updateBricks(const SceneState& state);
 
   Raycaster rays_;
   RobotGeometry robot_;
@@ -95,6 +98,14 @@ class RayScene {
   std::size_t people_shown_ = 0;
   std::vector<Raycaster::Id> boards_;
   bool boards_shown_ = false;
+  std::vector<Raycaster::Id> bricks_;
+  std::vector<Eigen::Isometry3d> X_map_bricks_;  ///< as they stand in rays_
+  struct StoragePart {
+    Raycaster::Id id;
+    std::size_t compartment;
+    Eigen::Isometry3d X_compartment_box;
+  };
+  std::vector<StoragePart> storage_;
   bool obstacle_shown_ = false;
   Raycaster::Id obstacle_ = 0;
 };

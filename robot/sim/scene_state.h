@@ -27,6 +27,8 @@ struct SceneState {
   std::optional<Eigen::Vector3d> obstacle;  ///< scripted box in the arm's way
   std::optional<MovedBox> moved;
   std::vector<Eigen::Vector3d> people;      ///< their feet, map
+  std::vector<Eigen::Isometry3d> bricks;    ///< as TrueWall::bricks, map
+  std::vector<double> compartments_m;       ///< of the storage, along their travel
   std::optional<double> board_azimuth_rad;  ///< boards about that azimuth of the LiDAR
 };
 

@@ -13,6 +13,8 @@ SensorSuite::SensorSuite(const WorldConfig& config, const TrueArena& arena,
       scene_(config, arena, robot, false),
       lidar_(config, arena, robot, seed),
       thermal_(config.thermal, robot, arena.robot, wet, seed),
+      mast_{CameraMount::Mast, config.camera.rate_hz, nullptr, {}, {}},
+      head_{CameraMount::Head, config.head_camera.rate_hz, nullptr, {}, {}},
       render_colour_(render_colour) {}
 
 void SensorSuite::request(const SensorRequest& request) {
@@ -21,7 +23,8 @@ void SensorSuite::request(const SensorRequest& request) {
     chunk_start_.reset();
   }
   if (!request.thermal) next_thermal_.reset();
-  if (!request.operator_camera) next_colour_.reset();
+  if (!request.operator_camera) mast_.next.reset();
+  if (!request.head_camera) head_.next.reset();
   request_ = request;
 }
 
@@ -59,28 +62,29 @@ void SensorSuite::runThermal(const SceneState& state, const FaultScript& faults)
   next_thermal_ = thermal_.nextFrame(state.stamp);
 }
 
-void SensorSuite::runColour(const SceneState& state, const FaultScript& faults,
+void SensorSuite::runColour(Eye& eye, const SceneState& state, const FaultScript& faults,
                             const std::function<std::vector<Eigen::Vector3d>()>& drops) {
-  const Duration period = fromSeconds(1.0 / config_.camera.rate_hz);
-  if (!next_colour_) next_colour_ = state.stamp + period;
-  if (state.stamp < *next_colour_) return;
-  next_colour_ = std::max(*next_colour_ + period, state.stamp + period / 2);
+  const Duration period = fromSeconds(1.0 / eye.rate_hz);
+  if (!eye.next) eye.next = state.stamp + period;
+  if (state.stamp < *eye.next) return;
+  eye.next = std::max(*eye.next + period, state.stamp + period / 2);
   if (faults.active("camera_freeze", state.stamp)) return;
   SceneState picture = state;
   picture.drops = drops();
   if (!render_colour_) {
-    colour_due_ = std::move(picture);
+    eye.due = std::move(picture);
     return;
   }
-  if (!colour_) colour_ = std::make_unique<ColourCamera>(config_, arena_, robot_);
-  frames_.colour.push_back(colour_->render(picture));
+  if (!eye.camera) eye.camera = std::make_unique<ColourCamera>(config_, arena_, robot_, eye.mount);
+  frames_.colour.push_back(eye.camera->render(picture));
 }
 
 void SensorSuite::afterStep(const SceneState& state, const FaultScript& faults,
                             const std::function<std::vector<Eigen::Vector3d>()>& drops) {
   if (request_.lidar) runLidar(state, faults);
   if (request_.thermal) runThermal(state, faults);
-  if (request_.operator_camera) runColour(state, faults, drops);
+  if (request_.operator_camera) runColour(mast_, state, faults, drops);
+  if (request_.head_camera) runColour(head_, state, faults, drops);
 }
 
 void SensorSuite::takeFrames(WorldReport& report) {
@@ -89,8 +93,8 @@ void SensorSuite::takeFrames(WorldReport& report) {
   report.colour = std::exchange(frames_.colour, {});
 }
 
-std::optional<SceneState> SensorSuite::takeColourDue() {
-  return std::exchange(colour_due_, std::nullopt);
+std::optional<SceneState> SensorSuite::takeColourDue(CameraMount camera) {
+  return std::exchange(camera == CameraMount::Mast ? mast_.due : head_.due, std::nullopt);
 }
 
 }  // namespace kiln::sim

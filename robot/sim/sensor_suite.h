@@ -23,7 +23,7 @@ class SensorSuite {
   void afterStep(const SceneState& state, const FaultScript& faults,
                  const std::function<std::vector<Eigen::Vector3d>()>& drops);
   void takeFrames(WorldReport& report);
-  [[nodiscard]] std::optional<SceneState> takeColourDue();
+  [[nodiscard]] std::optional<SceneState> takeColourDue(CameraMount camera);
   /// The scene for the water, not older than one LiDAR chunk.
   [[nodiscard]] const Raycaster& rays(const SceneState& state);
   /// Which of TrueArena::boxes a ray of rays() hit, if any.
@@ -36,7 +36,15 @@ class SensorSuite {
   void updateScene(const SceneState& state);
   void runLidar(const SceneState& state, const FaultScript& faults);
   void runThermal(const SceneState& state, const FaultScript& faults);
-  void runColour(const SceneState& state, const FaultScript& faults,
+  /// One of the colour cameras.
+  struct Eye {
+    CameraMount mount;
+    double rate_hz;
+    std::unique_ptr<ColourCamera> camera;  ///< made at the first picture
+    std::optional<Stamp> next;
+    std::optional<SceneState> due;
+  };
+  void runColour(Eye& eye, const SceneState& state, const FaultScript& faults,
                  const std::function<std::vector<Eigen::Vector3d>()>& drops);
 
   WorldConfig config_;
@@ -46,12 +54,11 @@ class SensorSuite {
   std::optional<Stamp> scene_of_;
   LidarThread lidar_;
   ThermalSensor thermal_;
-  std::unique_ptr<ColourCamera> colour_;  ///< made at the first picture
+  Eye mast_, head_;
   bool render_colour_;
   SensorRequest request_;
   std::optional<SceneState> chunk_start_;
-  std::optional<Stamp> next_thermal_, next_colour_;
-  std::optional<SceneState> colour_due_;
+  std::optional<Stamp> next_thermal_;
   WorldReport frames_;  ///< only its three frame lists
 };
 

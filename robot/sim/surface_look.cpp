@@ -31,11 +31,13 @@ bool inBuilding(const Eigen::Vector3f& p) {
   return p.x() > 5.0F && p.x() < 14.0F && std::fabs(p.y()) < 6.0F;
 }
 
+Colour groundColour(const Eigen::Vector3f& p) {
+  const bool line = onLine(p.x(), kSlab, kLine) || onLine(p.y(), kSlab, kLine);
+  return line ? Colour(150, 148, 142) : Colour(128, 126, 122);
+}
+
 Colour floorColour(const Eigen::Vector3f& p) {
-  if (!inBuilding(p)) {
-    const bool line = onLine(p.x(), kSlab, kLine) || onLine(p.y(), kSlab, kLine);
-    return line ? Colour(150, 148, 142) : Colour(128, 126, 122);
-  }
+  if (!inBuilding(p)) return groundColour(p);
   const bool joint = onLine(p.x(), kTile, kJoint) || onLine(p.y(), kTile, kJoint);
   if (joint) return {120, 112, 104};
   const int tile = wholePart(p.x() / kTile) + wholePart(p.y() / kTile);
@@ -60,6 +62,8 @@ SurfaceLook surfaceLook(Material material, const Eigen::Vector3f& p, const Eigen
   switch (material) {
     case Material::Floor:
       return {floorColour(p), false};
+    case Material::Ground:
+      return {groundColour(p), false};
     case Material::Wall:
       return {wallColour(p, normal), false};
     case Material::Furniture:
@@ -95,6 +99,22 @@ SurfaceLook surfaceLook(Material material, const Eigen::Vector3f& p, const Eigen
       return {Colour(196, 226, 255), true};
     case Material::Obstacle:
       return {Colour(214, 60, 60), false};
+    case Material::BrickRed:
+      return {Colour(196, 34, 38), false};
+    case Material::BrickGreen:
+      return {Colour(44, 160, 84), false};
+    case Material::BrickBlue:
+      return {Colour(36, 88, 190), false};
+    case Material::BrickOrange:
+      return {Colour(232, 124, 28), false};
+    case Material::MarkerMagenta:
+      return {Colour(198, 36, 132), false};
+    case Material::MarkerYellow:
+      return {Colour(240, 206, 40), false};
+    case Material::Storage:
+      return {Colour(168, 148, 116), false};
+    case Material::Magnets:
+      return {Colour(150, 152, 156), false};
     default:
       return {};
   }
@@ -104,8 +124,8 @@ int surfacePatch(Material material, const Eigen::Vector3f& p) {
   if (material == Material::Flame) return -1;
   if (material == Material::Wall)
     return p.z() < 0.10F ? 1 : p.z() < 1.10F ? 2 : p.z() < 1.14F ? 3 : 4;
-  if (material != Material::Floor) return 0;
-  const bool inside = inBuilding(p);
+  if (material != Material::Floor && material != Material::Ground) return 0;
+  const bool inside = material == Material::Floor && inBuilding(p);
   const float pitch = inside ? kTile : kSlab, half = inside ? kJoint : kLine;
   if (onLine(p.x(), pitch, half) || onLine(p.y(), pitch, half)) return -1;
   const int cell = 4096 * (wholePart(p.x() / pitch) + 2048) + wholePart(p.y() / pitch) + 2048;

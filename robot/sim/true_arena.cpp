@@ -130,6 +130,8 @@ TrueRobot drawRobot(const WorldConfig& config, const RobotGeometry& robot, std::
   out.X_flange_nozzle = perturbedMount(robot.X_flange_nozzle.pose(), config.perturbation, random);
   out.X_base_operatorcamera =
       perturbedMount(robot.X_base_operatorcamera.pose(), config.perturbation, random);
+  Random camera(seed, "head camera");
+  out.X_flange_rgb = perturbedMount(robot.X_flange_rgb.pose(), config.perturbation, camera);
   Random head(seed, "head");
   out.head_kg = config.arm.head_kg + head.uniform(-config.arm.head_off_kg, config.arm.head_off_kg);
   for (double& v : out.p_flange_head)
@@ -137,7 +139,28 @@ TrueRobot drawRobot(const WorldConfig& config, const RobotGeometry& robot, std::
   return out;
 }
 
+Eigen::Vector3d drawSun(const SunConfig& config, std::uint64_t seed) {
+  Random random(seed, "sun");
+  const double azimuth = random.uniform(-M_PI, M_PI);
+  const double up = random.uniform(config.min_elevation_deg, config.max_elevation_deg) * kDeg;
+  return {std::cos(up) * std::cos(azimuth), std::cos(up) * std::sin(azimuth), std::sin(up)};
+}
+
 }  // namespace
+
+Result<void> TrueArena::addWall(const WorldConfig& config, const WallSiteMap& site,
+                                std::uint64_t seed) {
+  auto drawn = TrueWall::draw(config.wall, site, ground, config.perturbation.size_m, seed);
+  if (!drawn) return tl::make_unexpected(drawn.error());
+  wall = std::move(*drawn);
+  if (!wall.present()) return {};
+  for (SolidBox& box : ground_boxes) box.material = Material::Ground;
+  for (SolidBox& box : wall.scenery(config.wall, ground)) {
+    box.temperature_c = config.fire.ambient_c;
+    boxes.push_back(std::move(box));
+  }
+  return {};
+}
 
 TrueArena TrueArena::draw(const WorldConfig& config, const ArenaMap& nominal,
                           const FireSiteMap& site, const RobotGeometry& robot, std::uint64_t seed) {
@@ -175,23 +198,30 @@ TrueArena TrueArena::draw(const WorldConfig& config, const ArenaMap& nominal,
   }
   arena.ground = drawGround(config, nominal, seed);
   arena.ground_boxes = groundBoxes(arena.ground, config.fire.ambient_c);
+  if (config.sun.drawn) arena.to_sun = drawSun(config.sun, seed);
   arena.robot = drawRobot(config, robot, seed);
   arena.nominal_start = nominal.start.pose();
   return arena;
 }
 
-Eigen::AlignedBox2d TrueArena::buildingZone(double around_m) const {
-  Eigen::AlignedBox2d zone;
-  for (const SolidBox& b : boxes) {
-    if (b.material != Material::Wall) continue;
-    for (const double x : {-0.5, 0.5}) {
+std::vector<Eigen::AlignedBox2d> TrueArena::reducedZones(double around_m) const {
+  Eigen::AlignedBox2d building, pile, marker;
+  const auto extend = [](Eigen::AlignedBox2d& zone, const Eigen::Isometry3d& X,
+                         const Eigen::Vector3d& size) {
+    for (const double x : {-0.5, 0.5})
       for (const double y : {-0.5, 0.5})
-        zone.extend((b.X_map_box * b.size_m.cwiseProduct(Eigen::Vector3d(x, y, 0))).head<2>());
-    }
+        zone.extend((X * size.cwiseProduct(Eigen::Vector3d(x, y, 0))).head<2>());
+  };
+  for (const SolidBox& b : boxes) {
+    if (b.material == Material::Wall) extend(building, b.X_map_box, b.size_m);
+    if (b.material == Material::MarkerMagenta) extend(marker, b.X_map_box, b.size_m);
   }
-  if (zone.isEmpty()) return zone;
+  for (const TrueBrick& brick : wall.bricks) extend(pile, brick.X_map_brick, brick.size_m);
+  std::vector<Eigen::AlignedBox2d> out;
   const Eigen::Vector2d around = Eigen::Vector2d::Constant(around_m);
-  return {zone.min() - around, zone.max() + around};
+  for (const Eigen::AlignedBox2d& zone : {building, pile, marker})
+    if (!zone.isEmpty()) out.emplace_back(zone.min() - around, zone.max() + around);
+  return out;
 }
 
 Pose2 drawStart(const PerturbationConfig& config, const Pose2& nominal, std::uint64_t seed,

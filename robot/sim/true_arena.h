@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "robot/scene/fire_site_map.h"
+#include "robot/sim/true_wall.h"
 #include "robot/sim/world_config.h"
 
 namespace kiln::sim {
@@ -32,8 +33,22 @@ enum class Material : std::uint8_t {
   Wheel,
   Water,
   Obstacle,
-  Person
+  Person,
+  BrickRed,
+  BrickGreen,
+  BrickBlue,
+  BrickOrange,
+  MarkerMagenta,
+  MarkerYellow,
+  Storage,
+  Magnets,
+  Ground  ///< under the open sky: slabs
 };
+
+[[nodiscard]] constexpr Material brickMaterial(BrickKind kind) {
+  return static_cast<Material>(static_cast<std::uint8_t>(Material::BrickRed) +
+                               static_cast<std::uint8_t>(kind));
+}
 
 struct SolidBox {
   std::string name;
@@ -68,6 +83,7 @@ struct TrueRobot {
   double head_kg = 5.0;
   Eigen::Vector3d p_flange_head = Eigen::Vector3d(0, 0, 0.09);  ///< centre of mass
   Eigen::Isometry3d X_flange_lidar, X_flange_thermal, X_flange_nozzle, X_base_operatorcamera;
+  Eigen::Isometry3d X_flange_rgb;
 };
 
 /// The world drawn for one seed: scenario.md section 3. Nothing here is ever sent to the robot.
@@ -77,14 +93,20 @@ struct TrueArena {
   std::vector<SolidBox> boxes;         ///< walls, furniture, distractors
   std::vector<TrueFirePlace> fire_places;
   std::size_t burning = 0;
+  TrueWall wall;
+  Eigen::Vector3d to_sun = Eigen::Vector3d(-0.42, -0.38, 0.82).normalized();
   TrueRobot robot;
   Pose2 nominal_start;
 
-  /// Footprint of the building and so much around it, in map: all walls together.
-  [[nodiscard]] Eigen::AlignedBox2d buildingZone(double around_m) const;
+  /// Footprints of building (all walls together), pile and wall marker, and so much around them, in
+  /// map.
+  [[nodiscard]] std::vector<Eigen::AlignedBox2d> reducedZones(double around_m) const;
   [[nodiscard]] static TrueArena draw(const WorldConfig& config, const ArenaMap& nominal,
                                       const FireSiteMap& site, const RobotGeometry& robot,
                                       std::uint64_t seed);
+  /// Adds the site of the wall. @pre drawn with the same config and seed
+  [[nodiscard]] Result<void> addWall(const WorldConfig& config, const WallSiteMap& site,
+                                     std::uint64_t seed);
 };
 
 /// Where the people put the robot: the nominal start with the error of `count`-th carrying (0 =

@@ -65,6 +65,39 @@ Json perturbations(const Truth& t) {
           {"boxes", boxes}};
 }
 
+/// Of the wall's worlds alone: reports of others stay as they are.
+void addWall(const Truth& t, Json& out) {
+  if (t.wall.bricks.empty()) return;
+  const WallTruth& w = t.wall;
+  Json bricks = Json::array();
+  for (const BrickTruth& b : w.bricks) {
+    Json brick = {{"name", b.name},
+                  {"pose", json(b.X_map_brick)},
+                  {"held", b.held},
+                  {"at_rest", b.at_rest},
+                  {"falls", b.falls}};
+    if (b.stored) brick["bin"] = {b.stored->compartment, b.stored->bin};
+    if (b.slot) brick["slot"] = *b.slot;
+    bricks.push_back(brick);
+  }
+  Json slots = Json::array();
+  for (const WallSlot& slot : w.slots)
+    slots.push_back({{"kind", brickShape(slot.kind).name},
+                     {"leg", slot.leg == WallLeg::Orange ? "orange" : "mixed"},
+                     {"layer", slot.layer},
+                     {"index", slot.index}});
+  out["wall"] = {{"pile", json(w.X_map_pile)},
+                 {"marker", json(w.X_map_marker)},
+                 {"placed", w.score.placed},
+                 {"points", w.score.points},
+                 {"frame", w.score.X_map_wall ? json(*w.score.X_map_wall) : Json(nullptr)},
+                 {"off_marker_m", w.score.off_marker_m},
+                 {"off_marker_rad", w.score.off_marker_rad},
+                 {"falls", w.falls},
+                 {"bricks", bricks},
+                 {"slots", slots}};
+}
+
 Json profileJson(const std::vector<JetProfile::Row>& rows) {
   Json out = Json::array();
   for (const JetProfile::Row& row : rows) {
@@ -91,28 +124,29 @@ std::string truthJson(const Truth& t) {
   for (const Pose2& to : t.kidnaps) kidnaps.push_back(json(to));
   const auto& places = t.arena.fire_places;
   const std::string burning = places.empty() ? "" : places[t.fire.burning].name;
-  const Json out = {{"seed", t.seed},
-                    {"world", t.world},
-                    {"simulated_s", toSeconds(t.now)},
-                    {"litres_delivered", t.fire.litres_delivered},
-                    {"burning", t.fire.burning},
-                    {"burning_name", burning},
-                    {"score", t.score},
-                    {"collisions", collisions},
-                    {"resets", t.resets},
-                    {"pump_on_s", t.fire.pump_on_s},
-                    {"litres_emitted", t.fire.litres_emitted},
-                    {"jet_profile", profileJson(t.fire.jet_profile)},
-                    {"tank_l", t.fire.tank_l},
-                    {"plate_c", t.fire.plate_c},
-                    {"final_base", json(t.X_map_base)},
-                    {"final_q_rad", json(t.q)},
-                    {"start", json(t.starts.back())},
-                    {"starts", starts},
-                    {"kidnaps", kidnaps},
-                    {"fell_s", t.fell ? Json(toSeconds(*t.fell)) : Json(nullptr)},
-                    {"fire_places", firePlaces(t)},
-                    {"perturbations", perturbations(t)}};
+  Json out = {{"seed", t.seed},
+              {"world", t.world},
+              {"simulated_s", toSeconds(t.now)},
+              {"litres_delivered", t.fire.litres_delivered},
+              {"burning", t.fire.burning},
+              {"burning_name", burning},
+              {"score", t.score},
+              {"collisions", collisions},
+              {"resets", t.resets},
+              {"pump_on_s", t.fire.pump_on_s},
+              {"litres_emitted", t.fire.litres_emitted},
+              {"jet_profile", profileJson(t.fire.jet_profile)},
+              {"tank_l", t.fire.tank_l},
+              {"plate_c", t.fire.plate_c},
+              {"final_base", json(t.X_map_base)},
+              {"final_q_rad", json(t.q)},
+              {"start", json(t.starts.back())},
+              {"starts", starts},
+              {"kidnaps", kidnaps},
+              {"fell_s", t.fell ? Json(toSeconds(*t.fell)) : Json(nullptr)},
+              {"fire_places", firePlaces(t)},
+              {"perturbations", perturbations(t)}};
+  addWall(t, out);
   return out.dump(2) + "\n";
 }
 
@@ -127,6 +161,12 @@ std::string truthTraceLine(const Truth& t) {
               {"litres", t.fire.litres_delivered}};
   if (!t.people.empty()) out["people"] = Json::array();
   for (const Eigen::Vector3d& feet : t.people) out["people"].push_back(json(feet));
+  if (!t.wall.bricks.empty()) {
+    out["placed"] = t.wall.score.placed;
+    out["falls"] = t.wall.falls;
+    out["bricks"] = Json::array();
+    for (const BrickTruth& b : t.wall.bricks) out["bricks"].push_back(json(b.X_map_brick));
+  }
   return out.dump() + "\n";
 }
 

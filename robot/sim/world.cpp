@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "common/config/resources.h"
 #include "common/core/check.h"
 #include "common/core/log.h"
 #include "robot/scene/fire_site_map.h"
+#include "robot/scene/wall_site_map.h"
 #include "robot/sim/arm_device.h"
 #include "robot/sim/arm_obstacle.h"
 #include "robot/sim/base_device.h"
@@ -15,9 +17,12 @@
 #include "robot/sim/fault_catalog.h"
 #include "robot/sim/fault_script.h"
 #include "robot/sim/fire_part.h"
+#include "robot/sim/gripper_device.h"
 #include "robot/sim/physics.h"
 #include "robot/sim/pump_device.h"
 #include "robot/sim/sensor_suite.h"
+#include "robot/sim/storage_device.h"
+#include "robot/sim/wall_part.h"
 
 namespace kiln::sim {
 namespace {
@@ -28,28 +33,35 @@ constexpr double kSunk_m = 0.3;
 }  // namespace
 
 struct World::Impl {
-  Impl(const WorldConfig& c, const ArenaMap& map, const FireSiteMap& site, const RobotGeometry& r,
-       std::uint64_t s, Options options)
+  Impl(const WorldConfig& c, TrueArena drawn, const RobotGeometry& r, std::uint64_t s,
+       Options options)
       : config(c),
         robot(r),
         seed(s),
-        arena(TrueArena::draw(c, map, site, r, s)),
+        arena(std::move(drawn)),
         step(fromSeconds(c.physics.step_s)),
         faults(c.faults),
         arm(c.arm, r, arena.robot, s),
         base(c.base, r, arena.robot, s),
         pumps(c.water, s),
+        gripper(c.wall.magnets, s),
+        storage(c.wall.storage, r.storage, s),
         fire(c, arena, robot, pumps, s),
+        wall(arena, robot),
         collisions(c.collision_force_n),
         disturbances(arena, r, s),
         sensors(c, arena, r, fire.wet(), s, options.render_colour),
         obstacle(robot),
-        reduced_zone(arena.buildingZone(c.arm.reduced_zone_m)) {}
+        reduced_zones(arena.reducedZones(c.arm.reduced_zone_m)) {
+    if (arena.wall.present() || !r.storage.empty()) parts.push_back(&wall);
+  }
 
   void carryToStart();
   void stepOnce();
   void applyFaults();
   void noticeFall();
+  /// Gripper and storage, before the bodies of a step.
+  void controlBricks(double step_s);
   [[nodiscard]] SceneState scene() const;
   [[nodiscard]] Eigen::Isometry3d X_map_flange() const {
     return physics->X_map_base() * robot.X_base_flange(physics->armPosition());
@@ -66,13 +78,16 @@ struct World::Impl {
   ArmDevice arm;
   BaseDevice base;
   PumpDevice pumps;
+  GripperDevice gripper;
+  StorageDevice storage;
   FirePart fire;
+  WallPart wall;
   std::vector<WorldPart*> parts{&fire};
   CollisionMonitor collisions;
   Disturbances disturbances;
   SensorSuite sensors;
   ArmObstacle obstacle;
-  Eigen::AlignedBox2d reduced_zone;
+  std::vector<Eigen::AlignedBox2d> reduced_zones;
   bool protective_stop_done = false;
   std::optional<Stamp> fell;
   bool clock_runs = false;  ///< the mission's
@@ -117,6 +132,20 @@ void World::Impl::applyFaults() {
   base.setRunaway(runaway != nullptr ? faultValue(*runaway, 0) : 1.0,
                   runaway != nullptr ? faultValue(*runaway, 1) : 0.0);
   disturbances.step(faults, now, toSeconds(step), *physics);
+  const FaultConfig* magnet = faults.find("magnet_broken", now);
+  for (std::size_t i = 0; i < kMagnets; ++i)
+    gripper.setBroken(i, magnet != nullptr && faultValue(*magnet, 0) == static_cast<double>(i + 1));
+  const FaultConfig* jam = faults.find("storage_jammed", now);
+  for (std::size_t i = 0; i < storage.size(); ++i)
+    storage.setJammed(i, jam != nullptr && faultValue(*jam, 0) == static_cast<double>(i + 1));
+}
+
+void World::Impl::controlBricks(double dt) {
+  gripper.setPowered(!base.batteryEmpty());
+  gripper.step(dt);
+  if (BrickBodies* bricks = physics->bricks()) bricks->setFields(gripper.fields());
+  storage.setPowered(!base.batteryEmpty());
+  storage.control(now, dt, *physics);
 }
 
 /// Nothing in the arena can bring the robot there without a collision; said apart, so that nobody
@@ -136,10 +165,13 @@ void World::Impl::stepOnce() {
   const double dt = toSeconds(step);
   applyFaults();
   const Eigen::Vector3d p_map_tool = X_map_flange() * robot.X_flange_tool.pose().translation();
-  arm.setReduced(reduced_zone.contains(Eigen::Vector2d(p_map_tool.head<2>())));
+  const Eigen::Vector2d p_tool = p_map_tool.head<2>();
+  arm.setReduced(std::any_of(reduced_zones.begin(), reduced_zones.end(),
+                             [&](const auto& zone) { return zone.contains(p_tool); }));
   arm.setPowered(!base.batteryEmpty());
   arm.control(now, dt, *physics);
   base.control(now, dt, *physics);
+  controlBricks(dt);
   physics->step();
   now += step;
   arm.sense(now, dt, *physics);
@@ -171,7 +203,12 @@ Result<std::unique_ptr<World>> World::create(const WorldConfig& config, std::uin
   if (!robot) return tl::make_unexpected(robot.error());
   const auto site = loadFireSite(*map);
   if (!site) return tl::make_unexpected(site.error());
-  auto impl = std::make_unique<Impl>(config, *map, *site, *robot, seed, options);
+  const auto wall_site = loadWallSite(*map);
+  if (!wall_site) return tl::make_unexpected(wall_site.error());
+  TrueArena arena = TrueArena::draw(config, *map, *site, *robot, seed);
+  if (auto ok = arena.addWall(config, *wall_site, seed); !ok)
+    return tl::make_unexpected(ok.error());
+  auto impl = std::make_unique<Impl>(config, std::move(arena), *robot, seed, options);
   auto physics = Physics::create(config, impl->arena, *robot);
   if (!physics) return tl::make_unexpected(physics.error());
   impl->physics = std::move(*physics);
@@ -202,6 +239,8 @@ void World::command(const WorldCommands& c) {
   if (c.arm) note(w.arm.servo(w.now, c.arm->q, c.arm->qd, c.arm_sent));
   if (c.base) note(w.base.write(w.now, *c.base));
   if (c.pumps) note(w.pumps.write(w.now, *c.pumps));
+  if (c.magnets) w.gripper.write(*c.magnets);
+  if (c.storage) note(w.storage.write(w.now, *c.storage));
 }
 
 WorldReport World::advance(Stamp until) {
@@ -214,6 +253,11 @@ WorldReport World::advance(Stamp until) {
   report.arm = w.arm.report(w.now, *w.physics);
   report.base = w.base.report(w.now, *w.physics);
   report.pumps = w.pumps.report(w.now);
+  if (const BrickBodies* bricks = w.physics->bricks()) {
+    const GripState& grip = bricks->grip();
+    report.gripper = w.gripper.report(w.now, grip.held || grip.touched);
+  }
+  if (w.storage.size() > 0) report.storage = w.storage.report(w.now, *w.physics);
   report.resets = w.resets;
   report.refused = w.refused;
   w.sensors.takeFrames(report);
@@ -221,7 +265,25 @@ WorldReport World::advance(Stamp until) {
 }
 
 Stamp World::now() const { return impl_->now; }
-std::optional<SceneState> World::colourDue() { return impl_->sensors.takeColourDue(); }
+std::optional<SceneState> World::colourDue(CameraMount camera) {
+  return impl_->sensors.takeColourDue(camera);
+}
+
+DeviceSet World::devices() const {
+  using enum DeviceKind;
+  DeviceSet out{Pumps, Lidar, ThermalCamera, OperatorCamera};
+  if (impl_->physics->bricks() != nullptr) out.insert({Gripper, HeadCamera});
+  if (!impl_->robot.storage.empty()) out.insert(Storage);
+  std::istringstream words(impl_->config.without);
+  for (std::string word; words >> word;) out.erase(*deviceNamed(word));
+  return out;
+}
+
+std::size_t World::awakeBricks() const {
+  const BrickBodies* bricks = impl_->physics->bricks();
+  return bricks == nullptr ? 0 : bricks->awake();
+}
+
 std::uint64_t World::seed() const { return impl_->seed; }
 const WorldConfig& World::config() const { return impl_->config; }
 const TrueArena& World::arena() const { return impl_->arena; }

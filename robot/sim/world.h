@@ -7,16 +7,21 @@
 
 #include "common/model/sensor.h"
 #include "robot/hal/arm.h"
+#include "robot/hal/device_set.h"
 #include "robot/hal/drive_base.h"
+#include "robot/hal/gripper.h"
+#include "robot/hal/storage.h"
+#include "robot/sim/colour_camera.h"
 #include "robot/sim/jet_profile.h"
 #include "robot/sim/scene_state.h"
 #include "robot/sim/true_arena.h"
+#include "robot/sim/wall_part.h"
 
 namespace kiln::sim {
 
 /// Which sensors run; one that does not run costs nothing.
 struct SensorRequest {
-  bool lidar = false, thermal = false, operator_camera = false;
+  bool lidar = false, thermal = false, operator_camera = false, head_camera = false;
 };
 
 /// Any subset of commands; an absent one lets that device's watchdog count on.
@@ -25,6 +30,8 @@ struct WorldCommands {
   std::optional<Stamp> arm_sent;  ///< by the sender's clock
   std::optional<WheelCommands> base;
   std::optional<std::array<double, 2>> pumps;
+  std::optional<MagnetMask> magnets;
+  std::optional<std::vector<double>> storage;  ///< targets, m
   std::optional<SensorRequest> sensors;
   std::optional<ArmPayload> payload;
   bool zero_force = false;
@@ -40,9 +47,11 @@ struct WorldReport {
   ArmState arm;
   BaseState base;
   PumpsState pumps;
+  std::optional<GripperState> gripper;  ///< of a world with bricks
+  std::optional<StorageState> storage;  ///< of a robot that has one
   std::vector<PointCloudPtr> lidar;
   std::vector<ThermalImagePtr> thermal;
-  std::vector<RgbImagePtr> colour;
+  std::vector<RgbImagePtr> colour;  ///< of both cameras, told apart by their frame
   std::uint32_t resets = 0;
   std::string refused;
   Duration slipped{};  ///< how long the world's clock has waited for a slow machine, in total
@@ -50,7 +59,7 @@ struct WorldReport {
 
 struct Collision {
   Stamp time;
-  std::string a, b;      ///< a on the robot
+  std::string a, b;      ///< a on the robot, or what it holds
   double force_n = 0.0;  ///< the most while they touched
 };
 
@@ -77,6 +86,7 @@ struct Truth {
   Eigen::Isometry3d X_map_base, X_map_thermal;
   Vector6d q;
   FireTruth fire;
+  WallTruth wall;
   std::vector<Pose2> starts;   ///< after each carrying, the first one included
   std::vector<Pose2> kidnaps;  ///< where the robot was put without anybody saying so
   std::vector<Eigen::Vector3d> people;
@@ -107,9 +117,13 @@ class World {
   [[nodiscard]] WorldReport advance(Stamp until);
   [[nodiscard]] Stamp now() const;
   [[nodiscard]] Truth truth() const;
-  /// The scene of an operator camera frame that became due in the last advance(), if nobody
+  /// The scene of a colour camera's frame that became due in the last advance(), if nobody
   /// rendered it.
-  [[nodiscard]] std::optional<SceneState> colourDue();
+  [[nodiscard]] std::optional<SceneState> colourDue(CameraMount camera = CameraMount::Mast);
+  /// Beside arm and base: what the robot of this world has.
+  [[nodiscard]] DeviceSet devices() const;
+  /// For tests and figures: bricks that physics moves now.
+  [[nodiscard]] std::size_t awakeBricks() const;
   [[nodiscard]] std::uint64_t seed() const;
   [[nodiscard]] const WorldConfig& config() const;
   [[nodiscard]] const TrueArena& arena() const;

@@ -1,7 +1,11 @@
 #include "robot/sim/world_config.h"
 
 #include <cmath>
+#include <sstream>
 
+#include <fmt/ranges.h>
+
+#include "robot/hal/device_set.h"
 #include "robot/sim/fault_catalog.h"
 
 namespace kiln::sim {
@@ -36,6 +40,8 @@ void WorldConfig::visit(ConfigArchive& a) {
   a.field("name", name, "for the operator");
   a.field("arena", arena, "nominal arena, below resources/");
   a.field("robot", robot, "nominal robot, below resources/");
+  a.field("without", without,
+          "devices that the robot lacks, as kiln-sim --without, separated by spaces");
   a.field("approach", approach, "ramp and edge of the arena; false: flat ground");
   a.field("device_period_s", device_period_s, "s", 0.002, 0.1,
           "a report each so often in real time");
@@ -46,8 +52,11 @@ void WorldConfig::visit(ConfigArchive& a) {
   a.section("lidar", lidar, "VLP-16");
   a.section("thermal", thermal, "Lepton 3.5");
   a.section("camera", camera, "operator camera");
+  a.section("head_camera", head_camera, "colour camera in the head");
+  a.section("sun", sun, "where it stands");
   a.section("perturbation", perturbation, "true world against configured world, by seed");
   a.section("fire", fire, "the fire places");
+  a.section("wall", wall, "bricks, gripper and storage");
   a.field("collision_force_n", collision_force_n, "N", 0, 1e3,
           "contacts above this count as collisions");
   a.list("distractors", distractors, "warm things that are not the fire");
@@ -56,6 +65,18 @@ void WorldConfig::visit(ConfigArchive& a) {
 }
 
 Result<void> WorldConfig::validate() const {
+  std::istringstream words(without);
+  for (std::string word; words >> word;) {
+    if (deviceNamed(word)) continue;
+    std::vector<std::string_view> known;
+    for (const DeviceKind kind : kDeviceKinds) known.push_back(shortName(kind));
+    return makeError(ErrorCode::InvalidInput, "without: '{}' is no device; known are {}", word,
+                     fmt::join(known, ", "));
+  }
+  if (sun.max_elevation_deg < sun.min_elevation_deg)
+    return makeError(ErrorCode::InvalidInput,
+                     "sun: max_elevation_deg {} is below min_elevation_deg {}",
+                     sun.max_elevation_deg, sun.min_elevation_deg);
   for (const FaultConfig& fault : faults) {
     if (auto ok = checkFault(fault); !ok) return ok;
   }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "common/robot_model/robot_geometry.h"
+#include "robot/sim/wall_config.h"
 
 namespace kiln::sim {
 
@@ -116,6 +117,16 @@ struct CameraConfig {
   int width = 1280, height = 720;
   double hfov_deg = 78.0;
   double noise = 2.0;  ///< grey levels
+  bool auto_exposure = false;
+  void visit(ConfigArchive& a);
+  /// The head's Brio: 78 deg across the diagonal, an exposure of its own.
+  [[nodiscard]] static CameraConfig head() { return {10.0, 1280, 720, 70.4, 2.0, true}; }
+};
+
+/// Where the sun stands; above the horizon.
+struct SunConfig {
+  bool drawn = false;  ///< by seed; false: it stands where it always stood
+  double min_elevation_deg = 15.0, max_elevation_deg = 70.0;
   void visit(ConfigArchive& a);
 };
 
@@ -183,6 +194,8 @@ struct WorldConfig {
   std::string name = "fire";
   std::string arena = "config/arena_kitchen.yaml";  ///< below resources/
   std::string robot = "robot_model/bob.yaml";       ///< below resources/
+  std::string
+      without;  ///< devices that its robot lacks, as kiln-sim --without; separated by spaces
   bool approach = false;  ///< ramp and edge of the arena; false: the ground is flat, z = 0
   double device_period_s = 0.008;
   PhysicsConfig physics;
@@ -192,8 +205,11 @@ struct WorldConfig {
   LidarConfig lidar;
   ThermalConfig thermal;
   CameraConfig camera;
+  CameraConfig head_camera = CameraConfig::head();
+  SunConfig sun;
   PerturbationConfig perturbation;
   FireConfig fire;
+  WallConfig wall;
   double collision_force_n = 5.0;
   std::vector<DistractorConfig> distractors;
   std::vector<WarmBoardConfig> warm_boards;

@@ -91,7 +91,9 @@ struct WorldServer::Impl {
   std::uint32_t holder_pid = 0;  ///< as it says
   LogThrottle unreadable{"sim.server"}, refused{"sim.server"}, came{"sim.server"},
       went{"sim.server"};
-  std::unique_ptr<PictureThread> pictures;
+  void renderDue(CameraMount camera, std::unique_ptr<PictureThread>& pictures, WorldReport& report);
+
+  std::unique_ptr<PictureThread> mast_pictures, head_pictures;
   std::ofstream trace_file;
   Stamp next_trace;
   Stamp next_report;   ///< clock time
@@ -217,6 +219,18 @@ void WorldServer::Impl::onMessage(PeerId from, std::string_view bytes) {
   handle(from, message);
 }
 
+void WorldServer::Impl::renderDue(CameraMount camera, std::unique_ptr<PictureThread>& pictures,
+                                  WorldReport& report) {
+  if (auto due = world.colourDue(camera)) {
+    if (!pictures)
+      pictures =
+          std::make_unique<PictureThread>(world.config(), world.arena(), world.robot(), camera);
+    pictures->render(std::move(*due));
+  }
+  if (!pictures) return;
+  for (RgbImagePtr& image : pictures->finished()) report.colour.push_back(std::move(image));
+}
+
 /// One device period: the world catches up with the clock. A machine that is too slow slows the
 /// world down.
 void WorldServer::Impl::runRealTime() {
@@ -231,12 +245,8 @@ void WorldServer::Impl::runRealTime() {
     target = world.now() + kSlip;
   }
   WorldReport report = world.advance(std::max(target, world.now()));
-  if (auto due = world.colourDue()) {
-    if (!pictures)
-      pictures = std::make_unique<PictureThread>(world.config(), world.arena(), world.robot());
-    pictures->render(std::move(*due));
-  }
-  if (pictures) report.colour = pictures->finished();
+  renderDue(CameraMount::Mast, mast_pictures, report);
+  renderDue(CameraMount::Head, head_pictures, report);
   report.slipped = slipped;
   publish(report);
   trace();

@@ -1,5 +1,6 @@
 #include "robot/sim_link/device_codec.h"
 
+#include <cmath>
 #include <cstring>
 
 #include "common/geom/frames.h"
@@ -119,7 +120,39 @@ Result<ThermalImagePtr> thermalFromProto(const v1::device::ThermalFrame& frame, 
   return image;
 }
 
-Result<RgbImagePtr> colourFromProto(const v1::device::ColourFrame& frame, Duration shift) {
+Result<GripperState> gripperFromProto(const v1::device::Report& report, Duration shift) {
+  const v1::device::GripperReport& m = report.gripper();
+  if (m.current_a_size() != static_cast<int>(kMagnets) || m.on() >> kMagnets != 0)
+    return makeError(ErrorCode::Truncated,
+                     "gripper report of the world has {} currents and state {:#x}; there are {} "
+                     "magnets",
+                     m.current_a_size(), m.on(), kMagnets);
+  GripperState state;
+  state.stamp = shifted(report.now_ns(), shift);
+  state.seq = report.seq();
+  state.on = MagnetMask(m.on());
+  for (int i = 0; i < m.current_a_size(); ++i)
+    state.current_a[static_cast<std::size_t>(i)] = m.current_a(i);
+  state.contact = m.contact();
+  return state;
+}
+
+Result<StorageState> storageFromProto(const v1::device::Report& report, Duration shift) {
+  StorageState state;
+  state.stamp = shifted(report.now_ns(), shift);
+  state.seq = report.seq();
+  state.setpoint_lost = report.storage().setpoint_lost();
+  for (const v1::device::CompartmentReport& m : report.storage().compartments()) {
+    if (!std::isfinite(m.position_m()) || !std::isfinite(m.target_m()))
+      return makeError(ErrorCode::InvalidInput, "storage report of the world is no number");
+    state.compartments.push_back(
+        {m.position_m(), m.target_m(), m.current_a(), m.moving(), m.blocked()});
+  }
+  return state;
+}
+
+Result<RgbImagePtr> colourFromProto(const v1::device::ColourFrame& frame, const char* camera,
+                                    Duration shift) {
   const std::uint64_t bytes = 3ULL * frame.width() * frame.height();
   if (bytes == 0 || bytes != frame.rgb().size()) {
     return makeError(ErrorCode::Truncated, "picture {} of the world: {} bytes for {} x {}",
@@ -128,7 +161,7 @@ Result<RgbImagePtr> colourFromProto(const v1::device::ColourFrame& frame, Durati
   auto image = std::make_shared<RgbImage>();
   image->stamp = shifted(frame.stamp_ns(), shift);
   image->seq = frame.seq();
-  image->frame = frames::kOperatorCamera;
+  image->frame = camera;
   image->width = static_cast<int>(frame.width());
   image->height = static_cast<int>(frame.height());
   image->data = values<std::uint8_t>(frame.rgb().data(), frame.rgb().size());
@@ -142,6 +175,9 @@ DeviceSet devicesFromProto(const v1::device::HelloReply& reply) {
     if (device == v1::device::DEVICE_LIDAR) out.insert(DeviceKind::Lidar);
     if (device == v1::device::DEVICE_THERMAL_CAMERA) out.insert(DeviceKind::ThermalCamera);
     if (device == v1::device::DEVICE_OPERATOR_CAMERA) out.insert(DeviceKind::OperatorCamera);
+    if (device == v1::device::DEVICE_HEAD_CAMERA) out.insert(DeviceKind::HeadCamera);
+    if (device == v1::device::DEVICE_GRIPPER) out.insert(DeviceKind::Gripper);
+    if (device == v1::device::DEVICE_STORAGE) out.insert(DeviceKind::Storage);
   }
   return out;
 }

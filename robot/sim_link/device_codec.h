@@ -4,6 +4,8 @@
 #include "common/model/sensor.h"
 #include "kiln/v1/device.pb.h"
 #include "robot/hal/device_set.h"
+#include "robot/hal/gripper.h"
+#include "robot/hal/storage.h"
 
 namespace kiln {
 
@@ -16,8 +18,13 @@ namespace kiln {
                                                    Duration shift);
 [[nodiscard]] Result<ThermalImagePtr> thermalFromProto(const v1::device::ThermalFrame& frame,
                                                        Duration shift);
+/// @param camera  its frame
 [[nodiscard]] Result<RgbImagePtr> colourFromProto(const v1::device::ColourFrame& frame,
-                                                  Duration shift);
+                                                  const char* camera, Duration shift);
+[[nodiscard]] Result<GripperState> gripperFromProto(const v1::device::Report& report,
+                                                    Duration shift);
+[[nodiscard]] Result<StorageState> storageFromProto(const v1::device::Report& report,
+                                                    Duration shift);
 
 /// A device of a newer world that this robot does not know is left out.
 [[nodiscard]] DeviceSet devicesFromProto(const v1::device::HelloReply& reply);

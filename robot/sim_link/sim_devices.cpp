@@ -81,6 +81,21 @@ Result<void> SimPumps::write(const std::array<double, 2>& duty) {
   });
 }
 
+Result<void> SimGripper::write(const MagnetMask& on) {
+  return outbox_.put([&](v1::device::Advance& m) {
+    m.mutable_magnets()->set_on(static_cast<std::uint32_t>(on.to_ulong()));
+  });
+}
+
+Result<void> SimStorage::write(std::span<const double> targets_m) {
+  for (const double target : targets_m)
+    if (!std::isfinite(target)) return tl::make_unexpected(notFinite("storage"));
+  return outbox_.put([&](v1::device::Advance& m) {
+    m.mutable_storage()->Clear();
+    for (const double target : targets_m) m.mutable_storage()->add_position_m(target);
+  });
+}
+
 Result<void> SimArena::requestReset() {
   return outbox_.put([](v1::device::Advance& m) { m.set_request_reset(true); });
 }
@@ -96,6 +111,7 @@ void SensorSwitch::fill(v1::device::Advance& m) const {
   m.mutable_sensors()->set_lidar(on_[kLidar]);
   m.mutable_sensors()->set_thermal(on_[kThermal]);
   m.mutable_sensors()->set_operator_camera(on_[kOperatorCamera]);
+  m.mutable_sensors()->set_head_camera(on_[kHeadCamera]);
 }
 
 Result<void> SensorSwitch::set(int sensor, bool on) {

@@ -79,6 +79,28 @@ class SimPumps final : public Pumps {
   Outbox& outbox_;
 };
 
+class SimGripper final : public Gripper {
+ public:
+  explicit SimGripper(Outbox& outbox) : outbox_(outbox) {}
+  [[nodiscard]] std::optional<GripperState> state() const override { return latest.peek(); }
+  Result<void> write(const MagnetMask& on) override;
+  LatestValue<GripperState> latest;
+
+ private:
+  Outbox& outbox_;
+};
+
+class SimStorage final : public Storage {
+ public:
+  explicit SimStorage(Outbox& outbox) : outbox_(outbox) {}
+  [[nodiscard]] std::optional<StorageState> state() const override { return latest.peek(); }
+  Result<void> write(std::span<const double> targets_m) override;
+  LatestValue<StorageState> latest;
+
+ private:
+  Outbox& outbox_;
+};
+
 class SimArena final : public Arena {
  public:
   explicit SimArena(Outbox& outbox) : outbox_(outbox) {}
@@ -92,20 +114,20 @@ class SimArena final : public Arena {
   std::atomic<bool> clock_told_{false};
 };
 
-/// Which sensors run, as one message; shared by the three sensors below. Thread-safe.
+/// Which sensors run, as one message; shared by the sensors below. Thread-safe.
 class SensorSwitch {
  public:
   explicit SensorSwitch(Outbox& outbox) : outbox_(outbox) {}
   Result<void> set(int sensor, bool on);
   /// After a (re)connect: says again what is wanted.
   void repeat();
-  static constexpr int kLidar = 0, kThermal = 1, kOperatorCamera = 2;
+  static constexpr int kLidar = 0, kThermal = 1, kOperatorCamera = 2, kHeadCamera = 3;
 
  private:
   void fill(v1::device::Advance& message) const;
   Outbox& outbox_;
   mutable Mutex mutex_;
-  std::array<bool, 3> on_{};
+  std::array<bool, 4> on_{};
 };
 
 /// A sensor of the world: `Interface` is Lidar, ThermalCamera or RgbCamera.
@@ -138,6 +160,7 @@ class SimSensor final : public Interface {
 
 using SimLidar = SimSensor<Lidar, PointCloudPtr, SensorSwitch::kLidar>;
 using SimThermalCamera = SimSensor<ThermalCamera, ThermalImagePtr, SensorSwitch::kThermal>;
+using SimHeadCamera = SimSensor<RgbCamera, RgbImagePtr, SensorSwitch::kHeadCamera>;
 using SimOperatorCamera = SimSensor<RgbCamera, RgbImagePtr, SensorSwitch::kOperatorCamera>;
 
 }  // namespace kiln

@@ -11,6 +11,7 @@
 #include "common/core/check.h"
 #include "common/core/log.h"
 #include "common/core/scheduling.h"
+#include "common/geom/frames.h"
 #include "robot/sim_link/clock_map.h"
 #include "robot/sim_link/device_codec.h"
 #include "robot/sim_link/sim_devices.h"
@@ -65,6 +66,9 @@ struct SimLink::Impl {
   SimLidar lidar{sensors};
   SimThermalCamera thermal{sensors};
   SimOperatorCamera camera{sensors};
+  SimHeadCamera head_camera{sensors};
+  SimGripper gripper{outbox};
+  SimStorage storage{outbox};
   World world;
   ClockMap clock_map;
   LatestValue<Stamp> last_report;  ///< daemon's clock
@@ -130,6 +134,12 @@ void SimLink::Impl::takeReport(const v1::device::Report& report, Duration shift)
   deliver(baseFromProto(report, shift), [this](const BaseState& s) { base.latest.put(s); });
   if (report.has_pumps())
     deliver(pumpsFromProto(report, shift), [this](const PumpsState& s) { pumps.latest.put(s); });
+  if (report.has_gripper())
+    deliver(gripperFromProto(report, shift),
+            [this](const GripperState& s) { gripper.latest.put(s); });
+  if (report.has_storage())
+    deliver(storageFromProto(report, shift),
+            [this](const StorageState& s) { storage.latest.put(s); });
   resets.store(report.resets());
   refusal.put(report.refused());
   last_report.put(config.lockstep ? stampFromNanoseconds(report.now_ns()) : clock.now());
@@ -139,7 +149,11 @@ void SimLink::Impl::takeReport(const v1::device::Report& report, Duration shift)
     deliver(thermalFromProto(frame, shift),
             [this](const ThermalImagePtr& i) { thermal.deliver(i); });
   for (const auto& frame : report.colour())
-    deliver(colourFromProto(frame, shift), [this](const RgbImagePtr& i) { camera.deliver(i); });
+    deliver(colourFromProto(frame, frames::kOperatorCamera, shift),
+            [this](const RgbImagePtr& i) { camera.deliver(i); });
+  for (const auto& frame : report.head_colour())
+    deliver(colourFromProto(frame, frames::kRgb, shift),
+            [this](const RgbImagePtr& i) { head_camera.deliver(i); });
 }
 
 void SimLink::Impl::handle(const v1::device::ToRobot& message) {
@@ -236,6 +250,9 @@ Pumps& SimLink::pumps() { return impl_->pumps; }
 Lidar& SimLink::lidar() { return impl_->lidar; }
 ThermalCamera& SimLink::thermalCamera() { return impl_->thermal; }
 RgbCamera& SimLink::operatorCamera() { return impl_->camera; }
+RgbCamera& SimLink::headCamera() { return impl_->head_camera; }
+Gripper& SimLink::gripper() { return impl_->gripper; }
+Storage& SimLink::storage() { return impl_->storage; }
 Arena& SimLink::arena() { return impl_->arena; }
 Result<void> SimLink::beginStep(Stamp until) { return impl_->beginStep(until); }
 Result<void> SimLink::finishStep() { return impl_->finishStep(); }

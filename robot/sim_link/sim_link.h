@@ -11,9 +11,11 @@
 #include "robot/hal/arm.h"
 #include "robot/hal/device_set.h"
 #include "robot/hal/drive_base.h"
+#include "robot/hal/gripper.h"
 #include "robot/hal/lidar.h"
 #include "robot/hal/pumps.h"
 #include "robot/hal/rgb_camera.h"
+#include "robot/hal/storage.h"
 #include "robot/hal/thermal_camera.h"
 
 namespace kiln {
@@ -70,6 +72,9 @@ class SimLink {
   [[nodiscard]] Lidar& lidar();
   [[nodiscard]] ThermalCamera& thermalCamera();
   [[nodiscard]] RgbCamera& operatorCamera();
+  [[nodiscard]] RgbCamera& headCamera();
+  [[nodiscard]] Gripper& gripper();
+  [[nodiscard]] Storage& storage();
   [[nodiscard]] Arena& arena();
 
   /// Lockstep only: sends what was commanded since the last call, lets the world run to `until` and

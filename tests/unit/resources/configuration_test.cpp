@@ -11,6 +11,7 @@
 #include "robot/app/robot_settings.h"
 #include "robot/missions/fire/skills/spray_calibration.h"
 #include "robot/scene/fire_site_map.h"
+#include "robot/scene/wall_site_map.h"
 #include "robot/sim/world_config.h"
 #include "tests/support/paths.h"
 
@@ -33,6 +34,7 @@ const std::map<std::string, std::function<Result<void>(const fs::path&)>>& reade
   static const std::map<std::string, std::function<Result<void>(const fs::path&)>> kReaders{
       {"config/arena_", readAs<ArenaMap>},
       {"config/fire_site_", readAs<FireSiteMap>},
+      {"config/wall_site_", readAs<WallSiteMap>},
       {"config/robot", readAs<RobotSettings>},
       {"config/spray_calibration", readAs<SprayCalibration>},
       {"robot_model/", readAs<RobotGeometry>},
@@ -84,6 +86,7 @@ TEST(ConfigurationReference, IsWhatTheStructsSay) {
       sectionFor<RobotSettings>("Robot", "resources/config/robot.yaml") +
       sectionFor<ArenaMap>("Arena", "resources/config/arena_kitchen.yaml") +
       sectionFor<FireSiteMap>("Fire places", "resources/config/fire_site_kitchen.yaml") +
+      sectionFor<WallSiteMap>("Site of the wall", "resources/config/wall_site_arena.yaml") +
       sectionFor<RobotGeometry>("Geometry of the robot", "resources/robot_model/bob.yaml") +
       sectionFor<sim::WorldConfig>("World", "resources/worlds/fire.yaml");
   const fs::path page = kResources / "docs/configuration.md";

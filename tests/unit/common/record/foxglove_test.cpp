@@ -106,6 +106,10 @@ TEST(DeviceSample, SurvivesTheWayAndRefusesNaN) {
   sample.stamp = stampFromNanoseconds(42);
   sample.arm.emplace().q[3] = 1.25;
   sample.base.emplace().wheels[2].drive_angle_rad = -7.5;
+  sample.gripper.emplace().on.set(5);
+  sample.gripper->current_a[5] = 0.35;
+  sample.storage.emplace().compartments = {{0.1, 0.2, 0.5, true, false},
+                                           {-0.3, -0.3, 0.1, false, true}};
   sample.X_odom_base = {1, 2, 3};
   sample.resets = 2;
   const auto back = wire::decodeDeviceSample(wire::encode(sample));
@@ -114,11 +118,20 @@ TEST(DeviceSample, SurvivesTheWayAndRefusesNaN) {
   EXPECT_EQ(back->arm->q[3], 1.25);
   EXPECT_EQ(back->base->wheels[2].drive_angle_rad, -7.5);
   EXPECT_FALSE(back->pumps);
+  EXPECT_TRUE(back->gripper->on[5]);
+  EXPECT_EQ(back->gripper->on.count(), 1u);
+  EXPECT_EQ(back->gripper->current_a[5], 0.35);
+  ASSERT_EQ(back->storage->compartments.size(), 2u);
+  EXPECT_EQ(back->storage->compartments[0].target_m, 0.2);
+  EXPECT_TRUE(back->storage->compartments[1].blocked);
   EXPECT_EQ(back->X_odom_base.yaw_rad, 3.0);
   EXPECT_EQ(back->resets, 2u);
   sample.base->wheels[0].steer_rad = NAN;
   EXPECT_FALSE(wire::decodeDeviceSample(wire::encode(sample)));
   EXPECT_FALSE(wire::decodeDeviceSample("\xff\xff\xff"));
+  sample.base.reset();
+  sample.storage->compartments[0].position_m = NAN;
+  EXPECT_FALSE(wire::decodeDeviceSample(wire::encode(sample)));
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <unistd.h>
 #include <zmq.hpp>
 
+#include "common/config/resources.h"
 #include "kiln/v1/device.pb.h"
 #include "robot/sim_link/sim_link.h"
 
@@ -93,6 +94,48 @@ TEST_F(WorldServerTest, TellsWhatTheRobotLacksAndKeepsIt) {
   EXPECT_FALSE((*link)->pumps().state().has_value());
   EXPECT_TRUE((*link)->arm().state().has_value());
   EXPECT_EQ(world->truth().fire.pump_on_s, 0.0);
+}
+
+TEST_F(WorldServerTest, GripperStorageAndHeadCameraOfAWallsRobot) {
+  WorldConfig lab = *WorldConfig::load(*resourcePath("worlds/wall_lab.yaml"));
+  lab.head_camera.width = 320;
+  lab.head_camera.height = 180;
+  world = std::move(*World::create(lab, 1));
+  config.devices = world->devices();
+  serve();
+  auto link = SimLink::connect(link_config, clock);
+  ASSERT_TRUE(link.has_value()) << link.error();
+  EXPECT_EQ((*link)->world().devices, (DeviceSet{DeviceKind::Lidar, DeviceKind::HeadCamera,
+                                                 DeviceKind::Gripper, DeviceKind::Storage}));
+  std::vector<RgbImagePtr> pictures;
+  ASSERT_TRUE((*link)
+                  ->headCamera()
+                  .start([&](const RgbImagePtr& picture) { pictures.push_back(picture); })
+                  .has_value());
+  MagnetMask on;
+  on.set(0).set(7);
+  ASSERT_TRUE((*link)->gripper().write(on).has_value());
+  for (int i = 1; i <= 100; ++i) {
+    ASSERT_TRUE((*link)->storage().write(std::vector<double>{0.05}).has_value());
+    ASSERT_TRUE((*link)->advanceTo(stampFromNanoseconds(i * 20'000'000LL)).has_value());
+  }
+  const auto gripper = (*link)->gripper().state();
+  ASSERT_TRUE(gripper.has_value());
+  EXPECT_EQ(gripper->on, on);
+  EXPECT_GT(gripper->current_a[7], 0.2);
+  EXPECT_LT(gripper->current_a[3], 0.1);
+  EXPECT_FALSE(gripper->contact);
+  const auto storage = (*link)->storage().state();
+  ASSERT_TRUE(storage.has_value());
+  ASSERT_EQ(storage->compartments.size(), 1U);
+  EXPECT_NEAR(storage->compartments[0].position_m, 0.05, 0.002);
+  EXPECT_NEAR(static_cast<double>(pictures.size()), 20.0, 2.0);
+  EXPECT_EQ(pictures.back()->frame, "rgb");
+  EXPECT_EQ(pictures.back()->width, 320);
+  ASSERT_TRUE((*link)->storage().write(std::vector<double>{2.0}).has_value());
+  ASSERT_TRUE((*link)->advanceTo(stampFromNanoseconds(2'020'000'000LL)).has_value());
+  EXPECT_THAT((*link)->refusal(), HasSubstr("compartment 1"));
+  EXPECT_FALSE((*link)->storage().write(std::vector<double>{std::nan("")}).has_value());
 }
 
 TEST_F(WorldServerTest, SecondRobotIsRefusedInWords) {

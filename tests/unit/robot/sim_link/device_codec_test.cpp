@@ -24,8 +24,8 @@ TEST(DeviceCodec, ImagesOfTheWrongSizeAreRefused) {
   colour.set_width(0xffffffff);
   colour.set_height(0xffffffff);
   colour.set_rgb("abc");
-  EXPECT_FALSE(colourFromProto(colour, {}).has_value());
-  EXPECT_FALSE(colourFromProto({}, {}).has_value());
+  EXPECT_FALSE(colourFromProto(colour, "rgb", {}).has_value());
+  EXPECT_FALSE(colourFromProto({}, "rgb", {}).has_value());
 }
 
 TEST(DeviceCodec, ReportsWithMissingJointsOrWheelsAreRefused) {
