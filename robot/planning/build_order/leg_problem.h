@@ -32,7 +32,8 @@ inline constexpr std::size_t kMostLayerBricks = 15;
 /// Error: InvalidInput, with the brick that lies on nothing, or what the leg is too large for.
 [[nodiscard]] Result<LegProblem> makeLegProblem(std::span<const WallSlot> slots, WallLeg leg);
 
-/// "blue, layer 2, 4th from the left (line 4, column 7 of the blueprint)".
+/// "blue, layer 2, 4th from the left (line 4, column 7 of the blueprint)", as formatBlueprint()
+/// writes it.
 [[nodiscard]] std::string describe(const LegProblem& problem, std::size_t layer, std::size_t index);
 
 /// The bricks [first, end) of each layer.

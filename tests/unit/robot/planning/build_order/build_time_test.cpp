@@ -88,12 +88,11 @@ class EveryWay {
 };
 
 TEST(FastestOrder, IsTheLeastOfEveryWayOnSmallWalls) {
-  const std::vector<std::vector<BrickKind>> rows{
-      {Red, Green, Red}, {Green, Red}, {Red, Blue, Red, Red}};
+  const std::vector<std::vector<BrickKind>> rows{{Red, Green, Red}, {Green, Red}, {Red, Blue, Red}};
   for (unsigned seed = 0; seed < 60; ++seed) {
-    const LegProblem problem = problemOf(smallWall(seed, 2 + seed % 2, rows[seed % 3]));
+    const LegProblem problem = problemOf(smallWall(seed, 2, rows[seed % 3]));
     BuildOrderConfig config;
-    config.reach_window_m = 0.4 + 0.15 * (seed % 5);
+    config.reach_window_m = 0.4 + 0.15 * (seed % 4);
     BuildTimeConfig time;
     time.base_speed_mps = seed % 2 == 0 ? 0.3 : 0.02;  // the way weighs little, or much
     const auto order = planFastestOrder(problem, config, time);
