@@ -12,7 +12,7 @@ void CompartmentConfig::visit(ConfigArchive& a) {
   a.field("bins", bins, "", 1, 20, "side by side");
   a.field("bin_width_m", bin_width_m, "m", 0.05, 1, "clear");
   a.field("bin_depth_m", bin_depth_m, "m", 0.05, 1, "of the floor");
-  a.field("plate_m", plate_m, "m", 0.001, 0.05, "thickness of walls, back and floor");
+  a.field("sheet_m", sheet_m, "m", 0.001, 0.05, "thickness of walls, back and floor");
   a.field("wall_height_m", wall_height_m, "m", 0.05, 3, "of walls and back");
   a.field("travel_min_m", travel_min_m, "m", -2, 0, "least position along Y");
   a.field("travel_max_m", travel_max_m, "m", 0, 2, "greatest position along Y");
@@ -26,7 +26,7 @@ Eigen::Isometry3d CompartmentConfig::X_base_compartment(double position_m) const
 }
 
 std::vector<CompartmentBox> CompartmentConfig::boxes() const {
-  const double t = plate_m, d = bin_depth_m, h = wall_height_m, w = bins * pitch() + t;
+  const double t = sheet_m, d = bin_depth_m, h = wall_height_m, w = bins * pitch() + t;
   const auto at = [](double x, double y, double z) {
     return Eigen::Isometry3d(Eigen::Translation3d(x, y, z));
   };

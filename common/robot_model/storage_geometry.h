@@ -26,14 +26,14 @@ struct CompartmentConfig {
   double incline_deg = 15.0;           ///< of the floor, backwards
   int bins = 5;
   double bin_width_m = 0.205, bin_depth_m = 0.20;
-  double plate_m = 0.005;  ///< thickness of walls, back and floor
+  double sheet_m = 0.005;  ///< thickness of walls, back and floor
   double wall_height_m = 1.10;
   double travel_min_m = -0.3, travel_max_m = 0.3;  ///< along Y
   double speed_mps = 0.06;
   void visit(ConfigArchive& a);
   /// @param position_m along its travel
   [[nodiscard]] Eigen::Isometry3d X_base_compartment(double position_m) const;
-  [[nodiscard]] double pitch() const { return bin_width_m + plate_m; }
+  [[nodiscard]] double pitch() const { return bin_width_m + sheet_m; }
   /// Y of the middle of a bin. @pre bin < bins
   [[nodiscard]] double binY(int bin) const { return (bin - 0.5 * (bins - 1)) * pitch(); }
   /// Floor, back and the walls between and beside the bins.

@@ -68,8 +68,8 @@ std::string face(const WorldConfig& config, const RobotGeometry& robot) {
   return fmt::format(
       R"(<geom name="{}" type="box" {} {} contype="{}" conaffinity="{}" mass="0" priority="2" friction="{:.4g} 0.005 0.0001"/>)"
       "\n",
-      names::kFace, size({2 * (reach.x() + r), 2 * (reach.y() + r), thick}), pose(X), kFaceBit,
-      1 | kBrickBit, config.wall.magnets.shear_n / std::max(1e-3, config.wall.magnets.flush_n));
+      names::kFace, size({2 * (reach.x() + r), 2 * (reach.y() + r), thick}), pose(X), kFaceBit, 1,
+      config.wall.magnets.shear_n / std::max(1e-3, config.wall.magnets.flush_n));
 }
 
 std::string compartments(const WorldConfig& config, const RobotGeometry& robot) {

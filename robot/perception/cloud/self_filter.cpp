@@ -7,10 +7,27 @@
 namespace kiln {
 namespace {
 
-Eigen::Vector3f halfSize(const BoxConfig& box, double margin) {
-  return (0.5 * Eigen::Vector3d(box.size_m[0], box.size_m[1], box.size_m[2]) +
-          Eigen::Vector3d::Constant(margin))
-      .cast<float>();
+constexpr double kTallest_m = 1.9;  ///< what stands in a bin reaches so far along its walls
+
+Eigen::Vector3d sizeOf(const BoxConfig& box) {
+  return {box.size_m[0], box.size_m[1], box.size_m[2]};
+}
+
+/// Of one compartment wherever it stands, with what is stored in it; in base.
+struct SweptRow {
+  Eigen::Isometry3d X_base_box;
+  Eigen::Vector3d size_m;
+};
+
+SweptRow swept(const CompartmentConfig& row) {
+  Eigen::AlignedBox3d hull;
+  for (const CompartmentBox& box : row.boxes()) {
+    const Eigen::Vector3d p = box.X_compartment_box.translation(), half = 0.5 * box.size_m;
+    hull.extend(Eigen::AlignedBox3d(p - half, p + half));
+  }
+  hull.extend(Eigen::Vector3d(hull.center().x(), hull.min().y() + row.travel_min_m, kTallest_m));
+  hull.extend(Eigen::Vector3d(hull.center().x(), hull.max().y() + row.travel_max_m, kTallest_m));
+  return {row.X_base_compartment(0.0) * Eigen::Translation3d(hull.center()), hull.sizes()};
 }
 
 }  // namespace
@@ -32,18 +49,26 @@ SelfFilter::Body SelfFilter::bodyAt(const Vector6d& q, std::span<const BoxConfig
   Body body;
   const auto joints = geometry_.arm.frames(q);
   const Eigen::Isometry3d X_lidar_armbase = X_lidar_flange_ * joints[5].inverse();
-  const auto addBox = [&](const BoxConfig& config, const Eigen::Isometry3d& X_lidar_parent) {
-    const Eigen::Isometry3d X_box_lidar = (X_lidar_parent * config.center.pose()).inverse();
+  const auto add = [&](const Eigen::Isometry3d& X_lidar_box, const Eigen::Vector3d& size_m) {
+    const Eigen::Isometry3d X_box_lidar = X_lidar_box.inverse();
+    const Eigen::Vector3d half = 0.5 * size_m + Eigen::Vector3d::Constant(config_.margin_m);
     Box box{X_box_lidar.linear().cast<float>(), X_box_lidar.translation().cast<float>(),
-            halfSize(config, config_.margin_m)};
+            half.cast<float>()};
     const float far = box.t.norm() + box.half.norm();
     body.reach2 = std::max(body.reach2, far * far);
     body.boxes.push_back(box);
+  };
+  const auto addBox = [&](const BoxConfig& config, const Eigen::Isometry3d& X_lidar_parent) {
+    add(X_lidar_parent * config.center.pose(), sizeOf(config));
   };
   for (const BoxConfig& box : geometry_.head) addBox(box, X_lidar_flange_);
   for (const BoxConfig& box : held) addBox(box, X_lidar_flange_ * geometry_.X_flange_tool.pose());
   for (const BoxConfig& box : geometry_.body)
     addBox(box, X_lidar_armbase * X_base_armbase_.inverse());
+  for (const CompartmentConfig& row : geometry_.storage) {
+    const SweptRow box = swept(row);
+    add(X_lidar_armbase * X_base_armbase_.inverse() * box.X_base_box, box.size_m);
+  }
 
   for (const kiln::Capsule& c : geometry_.armCapsules(q, X_lidar_armbase)) {
     const double radius = c.radius + config_.margin_m;

@@ -49,6 +49,34 @@ TEST(Bricks, ABrickThatIsPutOverTheEdgeFallsAndIsCounted) {
   EXPECT_NEAR(rig.height(2), 0.5, 0.01) << "the others stand";
 }
 
+/// A forearm that sweeps through a stack knocks it over: a collision, a fall, and frozen bricks
+/// wake in time.
+TEST(Bricks, ACarelessArmKnocksABrickOverAndItIsCounted) {
+  BrickRig rig;
+  rig.run(1.5);
+  EXPECT_LT(rig.bricks().awake(), 4U) << "far from the robot they are frozen";
+  // A stack of four beside the head, a little lower than it.
+  const Eigen::Isometry3d X_tool = rig.X_map_tool();
+  const std::size_t red = rig.first(BrickKind::Red);
+  for (std::size_t i = 0; i < 4; ++i)
+    rig.bricks().place(red + i,
+                       Eigen::Isometry3d(Eigen::Translation3d(X_tool.translation().x() - 0.06,
+                                                              X_tool.translation().y() + 0.25,
+                                                              0.1 + 0.2 * static_cast<double>(i))));
+  rig.run(1.0);
+  ASSERT_NEAR(rig.height(red + 3), 0.7, 0.01);
+  Vector6d swept =
+      rig.reach(rig.physics->X_map_base().inverse() * (Eigen::Translation3d(0, 0, -0.2) * X_tool));
+  rig.moveTo(swept, 2.0);
+  ASSERT_TRUE(rig.collisions.collisions().empty());
+  swept[0] += 1.2;
+  rig.moveTo(swept, 3.0);
+  rig.run(1.5);
+  ASSERT_FALSE(rig.collisions.collisions().empty());
+  EXPECT_NE(rig.collisions.collisions().front().b.find("brick red"), std::string::npos);
+  EXPECT_LT(rig.height(red + 3), 0.65);
+}
+
 /// Freezing is for speed alone: the LiDAR of a robot that turns its head sees the same.
 TEST(Bricks, FreezingDoesNotChangeWhatTheLidarSees) {
   std::vector<PointCloudPtr> scans[2];

@@ -70,6 +70,30 @@ TEST(SelfFilter, RemovesTheBodyInEveryArmPoseAndNothingElse) {
   }
 }
 
+/// The rows of a storage and what stands in them, at both ends of their travel; what is beside them
+/// stays.
+TEST(SelfFilter, TakesTheStorageOutWhereverItStands) {
+  RobotGeometry geometry;
+  ASSERT_TRUE(loadConfig(*resourcePath("robot_model/mario.yaml"), geometry).has_value());
+  ASSERT_EQ(geometry.storage.size(), 1u);
+  const CompartmentConfig& row = geometry.storage.front();
+  const SelfFilter filter(geometry, {});
+  const Vector6d q = RobotGeometry::radians(geometry.q_drive_deg);
+  ArmTrack arm;
+  arm.push(at(0), q);
+  std::vector<Eigen::Vector3d> own;
+  for (const double position : {row.travel_min_m, 0.0, row.travel_max_m}) {
+    const Eigen::Isometry3d X = row.X_base_compartment(position);
+    for (const CompartmentBox& box : row.boxes())
+      own.push_back(X * box.X_compartment_box * Eigen::Vector3d(0, 0, 0.5 * box.size_m.z()));
+    own.push_back(X * Eigen::Vector3d(0.1, row.binY(4), 1.8));  // the top of a long one
+  }
+  EXPECT_EQ(filter.filter(fromBase(geometry, q, own), arm).removed, own.size());
+  const std::vector<Eigen::Vector3d> others{
+      {-1.5, 0, 1.0}, {-0.3, 1.1, 1.0}, {1.5, 0.5, 0.8}, {-0.3, 0.6, 0.3}};
+  EXPECT_EQ(filter.filter(fromBase(geometry, q, others), arm).removed, 0u);
+}
+
 TEST(SelfFilter, PlacesTheArmWhereItWasAtEachPoint) {
   const RobotGeometry geometry = bob();
   Vector6d q0 = RobotGeometry::radians(geometry.q_drive_deg), q1 = q0;
