@@ -2,6 +2,7 @@
 
 #include "common/core/clock.h"
 #include "robot/evaluation/bricks/brick_trial.h"
+#include "robot/evaluation/bricks/processor_clock.h"
 #include "robot/evaluation/evaluation.h"
 
 namespace kiln {
@@ -174,7 +175,7 @@ class Sweep {
     config.bricks = BrickPoseEstimator::Config::paper();
     return config;
   }
-  SteadyClock clock_;
+  ProcessorClock clock_;
   BrickPerception ours_, paper_;
   Tally whole_, disturbed_, paper_whole_, paper_disturbed_;
   std::vector<double> rough_m_, rough_deg_, pipeline_ms_, iteration_ms_, solve_ms_;

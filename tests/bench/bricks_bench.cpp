@@ -3,6 +3,7 @@
 #include <benchmark/benchmark.h>
 
 #include "robot/evaluation/bricks/brick_trial.h"
+#include "robot/evaluation/bricks/processor_clock.h"
 #include "robot/perception/bricks/brick_perception.h"
 #include "robot/scene/pile_layout.h"
 #include "tests/unit/robot/perception/bricks/render_cloud.h"
@@ -62,7 +63,7 @@ BENCHMARK(roughPose)->Unit(benchmark::kMillisecond);
 /// @param state  0: ours, 1: the paper's method. Counters: an outer iteration, its solve, ms.
 void pipeline(benchmark::State& state) {
   const BrickTrial trial = makeTrial({}, 1);
-  const SteadyClock clock;
+  const ProcessorClock clock;
   BrickPerception::Config config;
   if (state.range(0) == 1) config.bricks = BrickPoseEstimator::Config::paper();
   BrickPerception perception(config, &clock);

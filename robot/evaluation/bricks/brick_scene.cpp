@@ -52,13 +52,21 @@ void tilt(TrueBrick& brick, SceneRandom& random) {
   brick.fate = BrickFate::Tilted;
 }
 
-/// Lies on the ground on the side of the robot.
-void fall(TrueBrick& brick, const Eigen::Isometry3d& X_world_target, SceneRandom& random) {
-  const Eigen::Vector3d p = X_world_target.inverse() * brick.X_world_brick.translation();
-  const double away = 0.35 + std::abs(uniform(random, 0.35));
-  brick.X_world_brick = X_world_target * makePose({p.x() + uniform(random, 0.2), p.y() - away,
-                                                   0.5 * brick.size_m.z()},
-                                                  {0, 0, uniform(random, M_PI)});
+/// Lies on the ground beside what it fell from, clear of it, on the side of the robot.
+void fall(TrueBrick& brick, const BrickScene& scene, SceneRandom& random) {
+  const Eigen::Vector3d p = scene.X_world_target.inverse() * brick.X_world_brick.translation();
+  const double yaw = uniform(random, M_PI), slide = uniform(random, 0.2);
+  const double gap = kBrickSide_m + std::abs(uniform(random, 0.3));
+  const double sin = std::abs(std::sin(yaw)), cos = std::abs(std::cos(yaw));
+  // Half as deep as it lies, away from the line.
+  const auto away = [&](double along, double across) {
+    return gap + 0.5 * (along * brick.size_m.x() + across * brick.size_m.y());
+  };
+  const bool orange_leg = scene.wall && p.y() > 0.5;
+  const Eigen::Vector2d at = orange_leg ? Eigen::Vector2d(p.x() - away(cos, sin), p.y() + slide)
+                                        : Eigen::Vector2d(p.x() + slide, p.y() - away(sin, cos));
+  brick.X_world_brick =
+      scene.X_world_target * makePose({at.x(), at.y(), 0.5 * brick.size_m.z()}, {0, 0, yaw});
   brick.fate = BrickFate::Fallen;
 }
 
@@ -115,6 +123,7 @@ BrickScene makeWallScene(std::size_t bricks, SceneRandom& random) {
                    [](const WallSlot& a, const WallSlot& b) { return a.layer < b.layer; });
   slots.resize(std::min(slots.size(), bricks));
   BrickScene scene;
+  scene.wall = true;
   scene.X_world_target =
       makePose({uniform(random, 5), uniform(random, 5), 0}, {0, 0, uniform(random, M_PI)});
   double wider = 0.0;  // what the joints of this layer and leg have added up to
@@ -149,7 +158,7 @@ void disturb(BrickScene& scene, double share, SceneRandom& random) {
     const auto at = std::find_if(scene.bricks.begin(), scene.bricks.end(),
                                  [&](const TrueBrick& brick) { return brick.id == id; });
     const int what = pick(random);
-    if (what == 1) fall(*at, scene.X_world_target, random);
+    if (what == 1) fall(*at, scene, random);
     if (what == 2) tilt(*at, random);
     scene.fates[static_cast<std::size_t>(id)] = what == 0 ? BrickFate::Missing : at->fate;
     if (what == 0) scene.bricks.erase(at);

@@ -27,6 +27,7 @@ struct BrickScene {
   std::vector<TrueBrick> bricks;
   std::vector<TargetBrick> database;  ///< nominal, in the target's frame
   std::vector<BrickFate> fates;       ///< of the database's bricks
+  bool wall = false;
   Eigen::Isometry3d X_world_target = Eigen::Isometry3d::Identity();
   [[nodiscard]] const TrueBrick* find(int id) const;
 };

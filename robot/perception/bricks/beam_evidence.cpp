@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/core/units.h"
-
 namespace kiln {
 namespace {
 
-constexpr float kCell_rad = 1.0F * static_cast<float>(kDeg);
-constexpr int kColumns = 360, kRows = 180;
-constexpr double kParallax_m = 0.15;  // how far the LiDAR moved from its mean place
-constexpr double kMinCosine = 0.15;   // of a face whose edges are looked at
+// Cells in the plane at distance 1 ahead of the sensor.
+constexpr float kCell = 0.02F;
+constexpr int kColumns = 400, kRows = 200;
+constexpr std::uint32_t kAside = 0xffffffffU;
+constexpr double kMinCosine = 0.15;  // of a face whose edges are looked at
 constexpr double kSegment_m = 0.3;
 constexpr double kCornerMargin_m = 0.01;  // not looked at beside the ends of an edge
 
@@ -54,26 +53,34 @@ std::vector<EdgeSegment> segments(const Eigen::Vector3d& size, const Eigen::Vect
   return out;
 }
 
-/// The place of an edge that the fewest beams contradict; false: they do not tell.
+/// The place of an edge: beams inside of it end on the face, beams outside go on. Judged by those
+/// within `beside_m` alone, so that a neighbour behind a gap does not matter. False: the beams do not
+/// tell.
 bool findEdge(std::vector<std::pair<float, bool>>& samples, const BeamGates& gates, double& at) {
-  const auto on = static_cast<int>(
-      std::count_if(samples.begin(), samples.end(), [](const auto& s) { return s.second; }));
-  const int past = static_cast<int>(samples.size()) - on;
-  if (on < gates.min_beams || past < gates.min_beams) return false;
   std::sort(samples.begin(), samples.end());
-  // Edge before sample k: beams past among those inside, beams on among those outside.
-  int wrong = on, best = on;
-  std::size_t first = 0, last = 0;
-  for (std::size_t k = 1; k <= samples.size(); ++k) {
-    wrong += samples[k - 1].second ? -1 : 1;
-    if (wrong < best) {
-      best = wrong;
-      first = k;
-    }
-    if (wrong == best) last = k;
+  const std::size_t n = samples.size();
+  std::vector<int> on(n + 1, 0);  // among the first k
+  for (std::size_t k = 0; k < n; ++k) on[k + 1] = on[k] + (samples[k].second ? 1 : 0);
+  const auto beside = static_cast<float>(gates.beside_m);
+  double best = 2.0 * gates.max_wrong;
+  std::size_t first = 0, last = 0, low = 0, high = 0;
+  for (std::size_t k = 1; k < n; ++k) {  // between samples k - 1 and k
+    const float place = 0.5F * (samples[k - 1].first + samples[k].first);
+    while (samples[low].first < place - beside) ++low;
+    while (high < n && samples[high].first <= place + beside) ++high;
+    const int inside = static_cast<int>(k - low), outside = static_cast<int>(high - k);
+    if (inside < gates.min_beams || outside < gates.min_beams) continue;
+    const double past_inside = static_cast<double>(inside - (on[k] - on[low])) / inside,
+                 on_outside = static_cast<double>(on[high] - on[k]) / outside;
+    if (std::max(past_inside, on_outside) > gates.max_wrong) continue;
+    const double wrong = past_inside + on_outside;
+    if (wrong > best || (wrong == best && first != 0 && k != last + 1)) continue;
+    if (wrong < best) first = k;
+    if (first == 0) first = k;
+    best = wrong;
+    last = k;
   }
-  if (first == 0 || last == samples.size() || best > gates.max_wrong * std::min(on, past))
-    return false;
+  if (first == 0) return false;
   const auto between = [&](std::size_t k) {
     return 0.5 *
            (static_cast<double>(samples[k - 1].first) + static_cast<double>(samples[k].first));
@@ -87,65 +94,82 @@ bool findEdge(std::vector<std::pair<float, bool>>& samples, const BeamGates& gat
 void BeamGates::visit(ConfigArchive& a) {
   a.field("on_m", on_m, "m", 0.005, 0.2, "ends within it: met the surface");
   a.field("through_m", through_m, "m", 0.01, 0.5, "ends farther behind: nothing stands there");
-  a.field("window_m", window_m, "m", 0.01, 0.3, "each side of an edge");
+  a.field("window_m", window_m, "m", 0.01, 0.3, "each side of an edge's expected place");
+  a.field("beside_m", beside_m, "m", 0.005, 0.1, "each side of an edge, that judge it");
   a.field("min_beams", min_beams, "", 2, 1000, "on either side of an edge");
   a.field("max_wrong", max_wrong, "", 0, 0.5, "share that may contradict an edge");
 }
 
-BeamIndex::BeamIndex(std::span<const Beam> beams, const Eigen::Vector3d& p_sensor)
+BeamIndex::BeamIndex(std::span<const Beam> beams, const Eigen::Vector3d& p_sensor,
+                     const Eigen::Vector3d& ahead)
     : beams_(beams),
       p_sensor_(p_sensor.cast<float>()),
-      first_(static_cast<std::size_t>(kColumns * kRows) + 1, 0),
-      sorted_(beams.size()) {
+      first_(static_cast<std::size_t>(kColumns * kRows) + 1, 0) {
+  Eigen::Vector3d level = ahead - p_sensor;
+  level.z() = 0.0;
+  if (level.norm() < 1e-3) level = Eigen::Vector3d(1, 0, 0);
+  level.normalize();
+  axes_.row(0) = Eigen::Vector3d(level.y(), -level.x(), 0.0).cast<float>();
+  axes_.row(1) = Eigen::Vector3f(0, 0, 1);
+  axes_.row(2) = level.cast<float>();
   std::vector<std::uint32_t> cells(beams.size());
+  Eigen::Vector2f at;
   for (std::size_t i = 0; i < beams.size(); ++i) {
-    const auto [column, row] = cellOf(beams[i].p - p_sensor_);
-    cells[i] = static_cast<std::uint32_t>(row * kColumns + column);
+    parallax_m_ = std::max(parallax_m_, (beams[i].origin - p_sensor_).squaredNorm());
+    if (!project(beams[i].p, at)) {
+      cells[i] = kAside;
+      continue;
+    }
+    cells[i] =
+        static_cast<std::uint32_t>(static_cast<int>(at.y()) * kColumns + static_cast<int>(at.x()));
     ++first_[cells[i] + 1];
   }
+  parallax_m_ = std::sqrt(parallax_m_);
   for (std::size_t c = 1; c < first_.size(); ++c) first_[c] += first_[c - 1];
+  sorted_.resize(first_.back());
   std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
   for (std::size_t i = 0; i < beams.size(); ++i)
-    sorted_[next[cells[i]]++] = static_cast<std::uint32_t>(i);
+    if (cells[i] != kAside) sorted_[next[cells[i]]++] = static_cast<std::uint32_t>(i);
 }
 
-std::array<int, 2> BeamIndex::cellOf(const Eigen::Vector3f& d) const {
-  const float azimuth = std::atan2(d.y(), d.x()) + static_cast<float>(M_PI);
-  const float elevation = std::atan2(d.z(), std::hypot(d.x(), d.y())) + static_cast<float>(M_PI_2);
-  return {std::clamp(static_cast<int>(azimuth / kCell_rad), 0, kColumns - 1),
-          std::clamp(static_cast<int>(elevation / kCell_rad), 0, kRows - 1)};
+bool BeamIndex::project(const Eigen::Vector3f& p, Eigen::Vector2f& cell) const {
+  const Eigen::Vector3f d = axes_ * (p - p_sensor_);
+  if (!(d.z() > 0.25F * std::abs(d.x())) || !(d.z() > 1e-3F)) return false;
+  cell.x() = std::clamp((d.x() / d.z()) / kCell + 0.5F * kColumns, 0.0F, kColumns - 1.0F);
+  cell.y() = std::clamp((d.y() / d.z()) / kCell + 0.5F * kRows, 0.0F, kRows - 1.0F);
+  return true;
 }
 
 std::vector<std::uint32_t> BeamIndex::near(const ModelBrick& brick, double margin_m) const {
   const Eigen::Vector3d half = 0.5 * brickSize(brick.kind) + Eigen::Vector3d::Constant(margin_m);
-  const Eigen::Vector3f centre = brick.X_world_brick.translation().cast<float>() - p_sensor_;
-  const double range = static_cast<double>(centre.norm());
   std::vector<std::uint32_t> out;
-  if (range < half.norm() + 0.1) return out;  // the LiDAR is not inside of bricks
-  const auto middle = cellOf(centre);
-  int left = 0, right = 0, low = kRows, high = 0;  // columns relative to the middle's
+  Eigen::Vector2f low = Eigen::Vector2f::Constant(1e9F), high = -low;
   for (int c = 0; c < 8; ++c) {
-    const Eigen::Vector3d corner =
-        brick.X_world_brick * Eigen::Vector3d((c & 1) != 0 ? half.x() : -half.x(),
-                                              (c & 2) != 0 ? half.y() : -half.y(),
-                                              (c & 4) != 0 ? half.z() : -half.z());
-    const auto [column, row] = cellOf(corner.cast<float>() - p_sensor_);
-    int off = column - middle[0];
-    off -= off > kColumns / 2 ? kColumns : off < -kColumns / 2 ? -kColumns : 0;
-    left = std::min(left, off);
-    right = std::max(right, off);
-    low = std::min(low, row);
-    high = std::max(high, row);
+    const Eigen::Vector3f corner =
+        (brick.X_world_brick * Eigen::Vector3d((c & 1) != 0 ? half.x() : -half.x(),
+                                               (c & 2) != 0 ? half.y() : -half.y(),
+                                               (c & 4) != 0 ? half.z() : -half.z()))
+            .cast<float>();
+    Eigen::Vector2f at;
+    if (!project(corner, at)) return out;
+    // The LiDAR moved: a beam that ends far behind is sorted by where it ends.
+    const float depth = axes_.row(2).dot(corner - p_sensor_);
+    const float more = 1.0F + parallax_m_ / depth / kCell *
+                                  (1.0F + std::max(std::abs(at.x() - 0.5F * kColumns),
+                                                   std::abs(at.y() - 0.5F * kRows)) *
+                                              kCell);
+    low = low.cwiseMin((at.array() - more).matrix());
+    high = high.cwiseMax((at.array() + more).matrix());
   }
-  // The LiDAR moved; beams that end far behind are sorted by where they end.
-  const int more =
-      1 + static_cast<int>(std::ceil(kParallax_m / range / static_cast<double>(kCell_rad)));
-  for (int row = std::max(0, low - more); row <= std::min(kRows - 1, high + more); ++row)
-    for (int off = left - more; off <= right + more; ++off) {
-      const auto cell =
-          static_cast<std::size_t>(row * kColumns + (middle[0] + off + 2 * kColumns) % kColumns);
-      out.insert(out.end(), sorted_.begin() + first_[cell], sorted_.begin() + first_[cell + 1]);
-    }
+  const int left = std::max(0, static_cast<int>(low.x())),
+            right = std::min(kColumns - 1, static_cast<int>(high.x()));
+  const int bottom = std::max(0, static_cast<int>(low.y())),
+            top = std::min(kRows - 1, static_cast<int>(high.y()));
+  for (int row = bottom; row <= top; ++row) {
+    const auto begin = static_cast<std::size_t>(row * kColumns + left),
+               end = static_cast<std::size_t>(row * kColumns + right + 1);
+    out.insert(out.end(), sorted_.begin() + first_[begin], sorted_.begin() + first_[end]);
+  }
   return out;
 }
 

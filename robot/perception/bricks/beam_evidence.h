@@ -15,15 +15,21 @@ namespace kiln {
 /// Keeps a view of the beams.
 class BeamIndex {
  public:
-  BeamIndex(std::span<const Beam> beams, const Eigen::Vector3d& p_sensor);
+  /// @param ahead  somewhere in the middle of the bricks; what lies more than about 75 deg beside it
+  ///               as seen from the sensor is not indexed.
+  BeamIndex(std::span<const Beam> beams, const Eigen::Vector3d& p_sensor,
+            const Eigen::Vector3d& ahead);
   /// Beams that may pass within `margin_m` of the brick (and others).
   [[nodiscard]] std::vector<std::uint32_t> near(const ModelBrick& brick, double margin_m) const;
   [[nodiscard]] const Beam& beam(std::uint32_t i) const { return beams_[i]; }
 
  private:
-  [[nodiscard]] std::array<int, 2> cellOf(const Eigen::Vector3f& direction) const;
+  /// In the tangent plane ahead, in cells; false: too far aside to be of interest.
+  [[nodiscard]] bool project(const Eigen::Vector3f& p, Eigen::Vector2f& cell) const;
   std::span<const Beam> beams_;
   Eigen::Vector3f p_sensor_;
+  Eigen::Matrix3f axes_;              ///< rows: right, up, ahead
+  float parallax_m_ = 0.0F;           ///< farthest that an origin lies from p_sensor_
   std::vector<std::uint32_t> first_;  ///< by cell, into sorted_; one more at the end
   std::vector<std::uint32_t> sorted_;
 };
@@ -32,7 +38,8 @@ class BeamIndex {
 struct BeamGates {
   double on_m = 0.04;       ///< ends within it: met the surface
   double through_m = 0.06;  ///< ends farther behind it: nothing stands there
-  double window_m = 0.06;   ///< each side of an edge, in which beams are looked at
+  double window_m = 0.12;   ///< each side of where an edge is expected: looked for within it
+  double beside_m = 0.025;  ///< each side of an edge: beams that judge it
   int min_beams = 8;        ///< on either side of an edge
   double max_wrong = 0.2;   ///< share of the smaller side that may contradict an edge
   void visit(ConfigArchive& a);

@@ -11,13 +11,24 @@ namespace {
 
 constexpr double kStill_m = 3e-4, kStill_rad = 3e-4;  // a step this small ends a stage
 constexpr double kReachSpare_m = 0.1;                 // a brick may move so far within a stage
-constexpr double kBeamMargin_m = 0.1;
+constexpr double kOutlineFrom_m = 0.1;  // stages that are finer than it look for outlines
 constexpr double kLowest_m = 0.05;  // a brick whose lower face starts below it stands on the ground
 
 std::vector<Eigen::Vector3f> positions(const std::vector<SurfacePoint>& surface) {
   std::vector<Eigen::Vector3f> out;
   for (const SurfacePoint& point : surface) out.push_back(point.p);
   return out;
+}
+
+Eigen::Vector3d middleOf(const std::vector<ModelBrick>& bricks, const std::vector<bool>& free) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double count = 0.0;
+  for (std::size_t i = 0; i < bricks.size(); ++i) {
+    if (!free[i]) continue;
+    sum += bricks[i].X_world_brick.translation();
+    count += 1.0;
+  }
+  return count > 0.0 ? Eigen::Vector3d(sum / count) : Eigen::Vector3d(1, 0, 0);
 }
 
 /// Do two bricks lie as neighbours or on each other? Asked in the frame of the first.
@@ -44,7 +55,8 @@ BrickAlignment::BrickAlignment(const BrickPoseEstimator::Config& config, const P
       gone_(start_.size(), false),
       motions_(start_.size(), UprightMotion::Zero()),
       blocks_(start_.size()),
-      beams_(sweep.beams, sweep.p_level_sensor),
+      outlines_(start_.size()),
+      beams_(sweep.beams, sweep.p_level_sensor, middleOf(start_, free_)),
       tree_(positions(sweep.surface)) {
   KILN_CHECK(free_.size() == start_.size(), free_.size(), start_.size());
   findPairs();
@@ -84,6 +96,7 @@ void BrickAlignment::remove(std::span<const std::size_t> bricks) {
   for (const std::size_t i : bricks) {
     gone_[i] = true;
     blocks_[i].correspondences.clear();
+    outlines_[i].clear();
   }
   findPairs();
   render();
@@ -120,17 +133,23 @@ void BrickAlignment::addGround(std::size_t i, BrickBlock& block) const {
   }
 }
 
-void BrickAlignment::addOutline(std::size_t i, const ModelBrick& now, BrickBlock& block) const {
-  const Eigen::Isometry3d X_start_now = start_[i].X_world_brick * now.X_world_brick.inverse();
-  for (Correspondence c : outline(beams_, now, beams_.near(now, kBeamMargin_m),
-                                  sweep_.p_level_sensor, config_.gates)) {
-    c.p = X_start_now * c.p;
-    c.weight = config_.outline_weight;
-    block.correspondences.push_back(c);
+/// An edge lies where it lies, wherever the brick is thought to be: asked once a stage.
+void BrickAlignment::findOutlines() {
+  for (const std::size_t i : there_) {
+    outlines_[i].clear();
+    if (!free_[i]) continue;
+    const ModelBrick now = brick(i);
+    const Eigen::Isometry3d X_start_now = start_[i].X_world_brick * now.X_world_brick.inverse();
+    for (Correspondence c : outline(beams_, now, beams_.near(now, config_.gates.window_m),
+                                    sweep_.p_level_sensor, config_.gates)) {
+      c.p = X_start_now * c.p;
+      c.weight = config_.outline_weight;
+      outlines_[i].push_back(c);
+    }
   }
 }
 
-void BrickAlignment::correspond(double distance_m, bool fine) {
+void BrickAlignment::correspond(double distance_m) {
   const CorrespondenceGates gates{distance_m, config_.lateral_m, config_.min_cosine};
   const std::vector<ModelBrick> bricks = bricksThere();
   std::vector<std::vector<Correspondence>> found;
@@ -146,15 +165,20 @@ void BrickAlignment::correspond(double distance_m, bool fine) {
     BrickBlock& block = blocks_[i];
     block.centre = start_[i].X_world_brick.translation();
     block.min_weight = config_.min_weight;
+    block.hold = config_.hold;
     block.correspondences.clear();
     if (!free_[i]) continue;
     const Eigen::Isometry3d X_start_now =
         start_[i].X_world_brick * bricks[k].X_world_brick.inverse();
-    for (Correspondence& c : found[k]) {
-      c.p = X_start_now * c.p;
-      block.correspondences.push_back(c);
+    // Every n-th of too many: they repeat each other, and the solve's time grows with them.
+    const std::size_t stride =
+        found[k].size() / static_cast<std::size_t>(config_.max_correspondences) + 1;
+    for (std::size_t c = 0; c < found[k].size(); c += stride) {
+      found[k][c].p = X_start_now * found[k][c].p;
+      block.correspondences.push_back(found[k][c]);
     }
-    if (config_.use_outline && fine) addOutline(i, bricks[k], block);
+    block.correspondences.insert(block.correspondences.end(), outlines_[i].begin(),
+                                 outlines_[i].end());
     addGround(i, block);
   }
 }
@@ -167,13 +191,14 @@ void BrickAlignment::run(double from_m, int max_iterations) {
     render();
     if (!config_.nearest_neighbours)
       assignment_.emplace(sweep_, bricksThere(), distance + kReachSpare_m);
+    if (config_.use_outline && distance < kOutlineFrom_m) findOutlines();
     seconds_ += now() - began;
     const bool last = distance == config_.distances_m.back();
     const int stage = last ? max_iterations : static_cast<int>(max_iterations * 0.35);
     for (int k = 0; k < stage && iterations_ < max_iterations; ++k) {
       const double begin = now();
       if (config_.nearest_neighbours && k > 0) render();
-      correspond(distance, distance < 0.1);
+      correspond(distance);
       const std::vector<UprightMotion> before = motions_;
       const double solving = now();
       (void)solveBricks(blocks_, pairs_, motions_, config_.solve);
@@ -211,11 +236,16 @@ double BrickAlignment::foundByNeighbours(std::size_t i) const {
 }
 
 std::vector<Eigen::Matrix4d> BrickAlignment::covariances() const {
-  const double turn = config_.touch_sigma_deg * kDeg, start = config_.start_sigma_deg * kDeg;
+  // The start is wrong for all bricks alike (rough pose): bricks that hold each other must not make
+  // it surer by their number.
+  const double together = std::sqrt(static_cast<double>(std::max<std::size_t>(1, there_.size())));
+  const double turn = config_.touch_sigma_deg * kDeg,
+               start_turn = together * config_.start_sigma_deg * kDeg,
+               start = together * config_.start_sigma_m;
   return brickCovariances(
       blocks_, pairs_, motions_, config_.sigma_m,
       {turn, config_.touch_sigma_m, config_.touch_sigma_m, config_.touch_sigma_up_m},
-      {start, config_.start_sigma_m, config_.start_sigma_m, config_.start_sigma_m});
+      {start_turn, start, start, start});
 }
 
 std::vector<int> BrickAlignment::owners() const {

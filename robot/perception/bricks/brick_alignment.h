@@ -45,9 +45,9 @@ class BrickAlignment {
 
  private:
   void findPairs();
-  void correspond(double distance_m, bool fine);
+  void correspond(double distance_m);
   void addGround(std::size_t i, BrickBlock& block) const;
-  void addOutline(std::size_t i, const ModelBrick& now, BrickBlock& block) const;
+  void findOutlines();
   [[nodiscard]] double now() const;
 
   const BrickPoseEstimator::Config& config_;
@@ -59,6 +59,7 @@ class BrickAlignment {
   std::vector<UprightMotion> motions_;
   std::vector<BrickPair> pairs_;
   std::vector<BrickBlock> blocks_;
+  std::vector<std::vector<Correspondence>> outlines_;  ///< by brick, of this stage
   BeamIndex beams_;
   PointTree tree_;
 

@@ -30,6 +30,17 @@ void BrickBlock::evaluate(const double* motion, double* residuals, double* jacob
     row[0] = root * (-c.n.x() * turned.y() + c.n.y() * turned.x());  // d turned = z x turned
     for (int k = 0; k < 3; ++k) row[1 + k] = root * c.n[k];
   }
+  const Eigen::Vector4d root(std::sqrt(hold.yaw), std::sqrt(hold.shift.x()),
+                             std::sqrt(hold.shift.y()), std::sqrt(hold.shift.z()));
+  const std::size_t first = correspondences.size();
+  for (std::size_t k = 0; k < kHoldResiduals; ++k) {
+    const auto axis = static_cast<Eigen::Index>(k);
+    residuals[first + k] = root[axis] * motion[k];
+    if (jacobian == nullptr) continue;
+    double* const row = jacobian + 4 * (first + k);
+    std::fill_n(row, 4, 0.0);
+    row[k] = root[axis];
+  }
 }
 
 void PairBlock::evaluate(const double* motion_a, const double* motion_b, double* residuals,
@@ -70,11 +81,12 @@ std::vector<Eigen::Matrix4d> brickCovariances(std::span<const BrickBlock> blocks
   for (Eigen::Index b = 0; b < n; ++b) {
     const auto i = static_cast<std::size_t>(b);
     const BrickBlock& block = blocks[i];
-    const auto rows = static_cast<Eigen::Index>(block.correspondences.size());
+    const auto rows = static_cast<Eigen::Index>(block.residuals());
     RowMajor jacobian(rows, 4);
     Eigen::VectorXd residuals(rows);
     block.evaluate(motions[i].data(), residuals.data(), jacobian.data());
-    Eigen::Matrix4d own = jacobian.transpose() * jacobian;
+    const auto measured = jacobian.topRows(rows - BrickBlock::kHoldResiduals);
+    Eigen::Matrix4d own = measured.transpose() * measured;
     own *= block.weightSum() / (sigma_m * sigma_m);
     own.diagonal() += prior_sigmas.array().square().inverse().matrix();
     information.block<4, 4>(4 * b, 4 * b) += own;

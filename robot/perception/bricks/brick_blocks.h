@@ -18,24 +18,32 @@ struct Correspondence {
   double weight = 1.0;
 };
 
-/// The terms of one brick in E_multi (NimbRo UGV paper, "Individual Brick Pose Estimation"):
-/// r_i = sqrt(w_i / M) n_i . (c + R(theta)(p_i - c) + t - q_i), M the sum of the weights or
-/// `min_weight`, whichever is more. One cost block with analytic Jacobian.
-struct BrickBlock {
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-  std::vector<Correspondence> correspondences;
-  double min_weight = 1.0;
-
-  [[nodiscard]] double weightSum() const;
-  /// @param residuals  one a correspondence.
-  /// @param jacobian   row-major, four columns; nullptr: not wanted.
-  void evaluate(const double* motion, double* residuals, double* jacobian) const;
-};
-
-/// How stiff two bricks that touch hold together; squares of residuals per rad^2 and m^2.
+/// How stiff two bricks that touch hold together, or one brick its initial pose; squares of residuals
+/// per rad^2 and m^2.
 struct PairStiffness {
   double yaw = 0.0;                                 ///< lambda_r
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();  ///< lambda_t, along level's axes
+};
+
+/// The terms of one brick in E_multi (NimbRo UGV paper, "Individual Brick Pose Estimation"):
+/// r_i = sqrt(w_i / M) n_i . (c + R(theta)(p_i - c) + t - q_i), M the sum of the weights or
+/// `min_weight`, whichever is more. One cost block with analytic Jacobian. Its last four residuals
+/// hold the initial pose, weakly: along a direction that no face holds the pair terms would let
+/// stacks of slightly turned bricks slide away.
+struct BrickBlock {
+  static constexpr int kHoldResiduals = 4;
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  std::vector<Correspondence> correspondences;
+  double min_weight = 1.0;
+  PairStiffness hold;
+
+  [[nodiscard]] int residuals() const {
+    return static_cast<int>(correspondences.size()) + kHoldResiduals;
+  }
+  [[nodiscard]] double weightSum() const;
+  /// @param residuals  one a correspondence, then those of `hold`: residuals() in all.
+  /// @param jacobian   row-major, four columns; nullptr: not wanted.
+  void evaluate(const double* motion, double* residuals, double* jacobian) const;
 };
 
 /// E^R and E^T of two bricks: brick a where brick b would carry it, had nothing moved between

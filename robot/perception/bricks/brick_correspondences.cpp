@@ -85,6 +85,8 @@ std::vector<std::vector<Correspondence>> SurfaceAssignment::assign(
     }
   }
   std::vector<std::vector<Correspondence>> out(bricks.size());
+  std::vector<Eigen::Isometry3d> inverse;
+  for (const ModelBrick& brick : bricks) inverse.push_back(brick.X_world_brick.inverse());
   for (std::size_t i = 0; i < owners_.size(); ++i) {
     if (owners_[i] < 0) continue;
     const auto b = static_cast<std::size_t>(owners_[i]);
@@ -92,11 +94,11 @@ std::vector<std::vector<Correspondence>> SurfaceAssignment::assign(
     const int k = matches_[i].face / 2;
     const double side = matches_[i].face % 2 == 0 ? -1.0 : 1.0;
     const Eigen::Vector3d q = sweep_.surface[i].p.cast<double>();
-    Eigen::Vector3d p = X.inverse() * q;
+    Eigen::Vector3d p = inverse[b] * q;
     const double half = 0.5 * brickSize(bricks[b].kind)[k];
     const double off = (side * p[k] - half) / gates.distance_m;
     p[k] = side * half;
-    const double tukey = std::pow(std::max(0.0, 1.0 - off * off), 2);
+    const double inside = std::max(0.0, 1.0 - off * off), tukey = inside * inside;
     const double count = std::min(1.0F, sweep_.surface[i].count / kFullCount);
     out[b].push_back({X * p, q, X.linear().col(k) * side, tukey * count});
   }

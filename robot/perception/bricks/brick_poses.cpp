@@ -85,11 +85,16 @@ void BrickPoseEstimator::Config::visit(ConfigArchive& a) {
   a.field("min_cosine", min_cosine, "", -1, 1, "lambda_dot, of model and measured normal");
   a.field("lateral_m", lateral_m, "m", 0, 0.2, "beside a face: still its point");
   a.field("max_iterations", max_iterations, "", 1, 200, "over all stages");
+  a.field("max_correspondences", max_correspondences, "", 20, 100000, "of a brick");
   a.field("touch_m", touch_m, "m", 0, 0.1, "nearer bricks touch");
   a.field("stiffness_yaw", stiffness.yaw, "", 0, 1e3, "lambda_r");
   a.field("stiffness_x", stiffness.shift.x(), "", 0, 1e3, "lambda_t, along the base's X");
   a.field("stiffness_y", stiffness.shift.y(), "", 0, 1e3, "lambda_t, along the base's Y");
   a.field("stiffness_z", stiffness.shift.z(), "", 0, 1e3, "lambda_t, upwards");
+  a.field("hold_yaw", hold.yaw, "", 0, 1e3, "of a brick's initial yaw");
+  a.field("hold_x", hold.shift.x(), "", 0, 1e3, "of a brick's initial place, along the base's X");
+  a.field("hold_y", hold.shift.y(), "", 0, 1e3, "of a brick's initial place, along the base's Y");
+  a.field("hold_z", hold.shift.z(), "", 0, 1e3, "of a brick's initial height");
   a.field("min_weight", min_weight, "", 0.001, 1e5, "M(j) at least");
   a.field("ground_weight", ground_weight, "", 0, 1e5, "of the lowest layer's height");
   a.field("outline_weight", outline_weight, "", 0, 1e5, "of one stretch of outline");
@@ -112,6 +117,7 @@ BrickPoseEstimator::Config BrickPoseEstimator::Config::paper() {
   Config config;
   config.nearest_neighbours = true;
   config.use_outline = false;
+  config.max_correspondences = 100000;
   config.stiffness = {0.01, Eigen::Vector3d::Constant(0.05)};
   return config;
 }

@@ -62,8 +62,10 @@ class BrickPoseEstimator {
     double min_cosine = 0.75;                            ///< lambda_dot
     double lateral_m = 0.025;                            ///< beside a face: still its point
     int max_iterations = 20;                             ///< over all stages
+    int max_correspondences = 300;                       ///< of a brick; of more every n-th
     double touch_m = 0.02;                               ///< nearer bricks touch
-    PairStiffness stiffness{0.002, {0.01, 0.01, 0.15}};
+    PairStiffness stiffness{0.0003, {0.01, 0.01, 0.15}};
+    PairStiffness hold{2e-5, Eigen::Vector3d::Constant(3e-4)};  ///< of the start, for all bricks
     double min_weight = 60.0;      ///< M(j) at least: a brick of few points leans on its neighbours
     double ground_weight = 30.0;   ///< of the lowest layer's height
     double outline_weight = 20.0;  ///< of one stretch of outline
@@ -76,7 +78,7 @@ class BrickPoseEstimator {
     double sigma_m = 0.06;
     double touch_sigma_deg = 1.5, touch_sigma_m = 0.01, touch_sigma_up_m = 0.003;
     double start_sigma_m = 0.08, start_sigma_deg = 10.0;
-    double trust_sigma_m = 0.025;  ///< a larger one lowers the confidence
+    double trust_sigma_m = 0.015;  ///< a larger one lowers the confidence
     BeamGates gates;
     SolveLimits solve;
     void visit(ConfigArchive& a);

@@ -9,7 +9,7 @@ namespace {
 class BrickCost final : public ceres::CostFunction {
  public:
   explicit BrickCost(const BrickBlock& block) : block_(block) {
-    set_num_residuals(static_cast<int>(block.correspondences.size()));
+    set_num_residuals(block.residuals());
     mutable_parameter_block_sizes()->push_back(4);
   }
   bool Evaluate(double const* const* x, double* residuals, double** jacobians) const override {
@@ -41,7 +41,7 @@ SolveSummary solveBricks(std::span<const BrickBlock> blocks, std::span<const Bri
   KILN_CHECK(blocks.size() == motions.size(), blocks.size(), motions.size());
   ceres::Problem problem;
   for (std::size_t i = 0; i < blocks.size(); ++i)
-    if (!blocks[i].correspondences.empty())
+    if (!blocks[i].correspondences.empty() || blocks[i].hold.yaw > 0.0)
       problem.AddResidualBlock(new BrickCost(blocks[i]), nullptr, motions[i].data());
   for (const BrickPair& pair : pairs)
     problem.AddResidualBlock(new PairCost(pair.block), nullptr, motions[pair.a].data(),

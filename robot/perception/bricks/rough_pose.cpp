@@ -14,12 +14,12 @@ namespace {
 
 constexpr double kStill_m = 5e-4, kStill_rad = 2e-4;  // a step this small ends a stage
 constexpr float kBeside_m = 0.05F;                    // overlap is counted within it
-constexpr int kScorePoints = 600;
+constexpr int kScorePoints = 600, kExplainPoints = 1500;
 
 class BlockCost final : public ceres::CostFunction {
  public:
   explicit BlockCost(const BrickBlock& block) : block_(block) {
-    set_num_residuals(static_cast<int>(block.correspondences.size()));
+    set_num_residuals(block.residuals());
     mutable_parameter_block_sizes()->push_back(4);
   }
   bool Evaluate(double const* const* x, double* residuals, double** jacobians) const override {
@@ -78,6 +78,7 @@ void RoughPoseEstimator::Config::visit(ConfigArchive& a) {
   a.field("shift_m", shift_m, "m", 0, 2, "tried along the target's X, each side");
   a.field("shift_step_m", shift_step_m, "m", 0.02, 0.5, "between two trials");
   a.field("direction_weight", direction_weight, "", 0, 1e6, "of the marker's direction");
+  a.field("hold", hold, "", 0, 100, "of where a stage began");
   a.field("ground_weight", ground_weight, "", 0, 100, "of the height over the ground");
   a.field("min_overlap", min_overlap, "", 0, 1, "less: refused");
   a.field("min_correspondences", min_correspondences, "", 10, 100000, "fewer: refused");
@@ -132,7 +133,8 @@ struct RoughPoseEstimator::Search {
   [[nodiscard]] UprightMotion solve(const UprightMotion& start) const;
   [[nodiscard]] UprightMotion icp(UprightMotion motion, double from_m, double to_m, bool to_plane);
   [[nodiscard]] double overlap(const UprightMotion& motion, std::size_t stride) const;
-  [[nodiscard]] double explained() const;
+  /// Share of the measured points around that lie beside the model, were it shifted.
+  [[nodiscard]] double explained(const Eigen::Vector3d& shift, double margin_m) const;
   void advance(const UprightMotion& motion) { render(moved(motion, pivot) * X_level_target); }
 };
 
@@ -157,6 +159,7 @@ void RoughPoseEstimator::Search::correspond(const UprightMotion& motion, double 
                                             bool to_plane) {
   const Eigen::Isometry3f X = moved(motion, pivot).cast<float>();
   block.centre = pivot;
+  block.hold = {0.0, {config.hold, config.hold, 0.0}};
   block.correspondences.clear();
   for (const ModelPoint& point : model) {
     const std::uint32_t i = tree.nearest(X * point.p, static_cast<float>(radius_m));
@@ -186,7 +189,7 @@ UprightMotion RoughPoseEstimator::Search::solve(const UprightMotion& start) cons
         new DirectionCost(X_level_target.linear().col(0), *line, config.direction_weight), nullptr,
         motion.data());
   ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_QR;
+  options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
   options.parameter_tolerance = config.solve.parameter_tolerance;
   options.function_tolerance = config.solve.function_tolerance;
   options.max_num_iterations = config.solve.max_iterations;
@@ -226,20 +229,22 @@ double RoughPoseEstimator::Search::overlap(const UprightMotion& motion, std::siz
   return asked > 0 ? static_cast<double>(met) / asked : 0.0;
 }
 
-double RoughPoseEstimator::Search::explained() const {
+double RoughPoseEstimator::Search::explained(const Eigen::Vector3d& shift, double margin_m) const {
   std::vector<Eigen::Vector3f> points;
-  for (const ModelPoint& point : model) points.push_back(point.p);
+  for (const ModelPoint& point : model) points.push_back(point.p + shift.cast<float>());
   const PointTree own(points);
-  const SweepRegion around = RoughPoseEstimator::region(target, 0.15);
+  const SweepRegion around = RoughPoseEstimator::region(target, margin_m);
   const Eigen::Isometry3f X_target_level = X_level_target.inverse().cast<float>();
+  const std::size_t stride =
+      std::max<std::size_t>(1, sweep.surface.size() / static_cast<std::size_t>(kExplainPoints));
   int asked = 0, met = 0;
-  for (const SurfacePoint& point : sweep.surface) {
-    const Eigen::Vector3f p = X_target_level * point.p;
+  for (std::size_t i = 0; i < sweep.surface.size(); i += stride) {
+    const Eigen::Vector3f p = X_target_level * sweep.surface[i].p;
     if ((p.array() < around.low.cast<float>().array()).any() ||
         (p.array() > around.high.cast<float>().array()).any())
       continue;
     ++asked;
-    if (own.nearest(point.p, 2.0F * kBeside_m) != PointTree::kNone) ++met;
+    if (own.nearest(sweep.surface[i].p, 2.0F * kBeside_m) != PointTree::kNone) ++met;
   }
   return asked > 0 ? static_cast<double>(met) / asked : 0.0;
 }
@@ -260,7 +265,7 @@ Result<RoughPose> RoughPoseEstimator::estimate(const PreparedSweep& sweep,
   const UprightMotion first =
       search.icp(UprightMotion::Zero(), config_.far_m, config_.near_m, true);
   search.advance(first);
-  // Stacks look alike: a model that is one stack off fits its faces as well, but not its gaps.
+  // Stacks look alike: a model that is one stack off fits most faces as well, but not the ends.
   const Eigen::Vector3d along = search.X_level_target.linear().col(0);
   const std::size_t stride = std::max<std::size_t>(1, search.model.size() / kScorePoints);
   UprightMotion best = UprightMotion::Zero();
@@ -269,8 +274,9 @@ Result<RoughPose> RoughPoseEstimator::estimate(const PreparedSweep& sweep,
   for (int k = -steps; k <= steps; ++k) {
     UprightMotion shifted = UprightMotion::Zero();
     shifted.tail<3>() = k * config_.shift_step_m * along;
-    // Nothing gained by a shift: rather none.
-    const double score = search.overlap(shifted, stride) - 1e-3 * std::abs(k);
+    // What is expected must be there, and what is there expected. Nothing gained: rather no shift.
+    const double score = search.overlap(shifted, stride) +
+                         search.explained(shifted.tail<3>(), config_.shift_m) - 1e-3 * std::abs(k);
     if (score <= best_score) continue;
     best_score = score;
     best = shifted;
@@ -288,7 +294,7 @@ Result<RoughPose> RoughPoseEstimator::estimate(const PreparedSweep& sweep,
   out.iterations = search.iterations;
   out.correspondences = static_cast<int>(search.block.correspondences.size());
   out.overlap = search.overlap(UprightMotion::Zero(), 1);
-  out.explained = search.explained();
+  out.explained = search.explained(Eigen::Vector3d::Zero(), 0.15);
   if (out.correspondences < config_.min_correspondences)
     return makeError(ErrorCode::Degenerate,
                      "too few points on the target: {} correspondences, {} needed",

@@ -50,13 +50,14 @@ class RoughPoseEstimator {
     double close_m = 0.06;              ///< of the point-to-point stage
     double min_cosine = 0.6;            ///< of model and measured normal
     int max_iterations = 20;            ///< a stage
-    int max_model_points = 1500;        ///< used of the model cloud
+    int max_model_points = 900;         ///< used of the model cloud
     double shift_m = 0.5, shift_step_m = 0.1;  ///< tried along the target's X, each side
     double direction_weight = 10.0;            ///< of E_dir
     double ground_weight = 0.5;                ///< of the height over the ground, relative
-    double min_overlap = 0.4;                  ///< less: refused
-    int min_correspondences = 80;              ///< fewer: refused
-    double sigma_m = 0.15;  ///< of a correspondence: stacks are off by 5 cm, each as one
+    double hold = 0.02;        ///< of where a stage began: along a line of faces little else holds
+    double min_overlap = 0.4;  ///< less: refused
+    int min_correspondences = 80;  ///< fewer: refused
+    double sigma_m = 0.15;         ///< of a correspondence: stacks are off by 5 cm, each as one
     SolveLimits solve;
     void visit(ConfigArchive& a);
   };

@@ -55,7 +55,7 @@ std::array<FaceGrid, 6> latticeOf(const ModelBrick& brick) {
 TEST(Outline, PullsABrickSidewaysToWhereItsEdgesAre) {
   const std::vector<ModelBrick> truth{brickAt(3.0, 0.0)};
   const std::vector<Beam> beams = beamsAt(truth);
-  const BeamIndex index(beams, kSensor);
+  const BeamIndex index(beams, kSensor, {3.0, 0.0, 0.1});
   const ModelBrick believed = brickAt(3.0, 0.03);  // 3 cm to the left
   const auto edges = outline(index, believed, index.near(believed, 0.1), kSensor, BeamGates{});
   double sum = 0.0;
@@ -72,7 +72,7 @@ TEST(Outline, PullsABrickSidewaysToWhereItsEdgesAre) {
 TEST(Outline, HasNoEdgeWhereANeighbourGoesOn) {
   const std::vector<ModelBrick> truth{brickAt(3.0, 0.0), brickAt(3.0, 0.302), brickAt(3.0, -0.302)};
   const std::vector<Beam> beams = beamsAt(truth);
-  const BeamIndex index(beams, kSensor);
+  const BeamIndex index(beams, kSensor, {3.0, 0.0, 0.1});
   for (const Correspondence& c :
        outline(index, truth[0], index.near(truth[0], 0.1), kSensor, BeamGates{}))
     EXPECT_LT(std::abs(c.n.y()), 0.1);
@@ -81,7 +81,7 @@ TEST(Outline, HasNoEdgeWhereANeighbourGoesOn) {
 TEST(Weigh, FindsABrickThatIsThere) {
   const std::vector<ModelBrick> truth{brickAt(3.0, 0.0)};
   const std::vector<Beam> beams = beamsAt(truth);
-  const BeamIndex index(beams, kSensor);
+  const BeamIndex index(beams, kSensor, {3.0, 0.0, 0.1});
   const SurfaceEvidence e =
       weigh(index, truth[0], latticeOf(truth[0]), index.near(truth[0], 0.02), BeamGates{});
   EXPECT_EQ(e.expected, 300);  // 15 x 10 cells in front and as many above
@@ -91,7 +91,7 @@ TEST(Weigh, FindsABrickThatIsThere) {
 
 TEST(Weigh, SeesThroughABrickThatIsNot) {
   const std::vector<Beam> beams = beamsAt({});
-  const BeamIndex index(beams, kSensor);
+  const BeamIndex index(beams, kSensor, {3.0, 0.0, 0.1});
   const ModelBrick ghost = brickAt(3.0, 0.0);
   const SurfaceEvidence e =
       weigh(index, ghost, latticeOf(ghost), index.near(ghost, 0.02), BeamGates{});
@@ -101,9 +101,9 @@ TEST(Weigh, SeesThroughABrickThatIsNot) {
 }
 
 TEST(Weigh, TellsHiddenFromEmpty) {
-  const ModelBrick wanted = brickAt(3.0, 0.0), before = brickAt(2.3, 0.0);
+  const ModelBrick wanted = brickAt(3.0, 0.0), before = brickAt(2.72, 0.0);
   const std::vector<Beam> beams = beamsAt(std::vector<ModelBrick>{wanted, before});
-  const BeamIndex index(beams, kSensor);
+  const BeamIndex index(beams, kSensor, {3.0, 0.0, 0.1});
   const SurfaceEvidence e =
       weigh(index, wanted, latticeOf(wanted), index.near(wanted, 0.02), BeamGates{});
   EXPECT_GT(e.hidden, 10);

@@ -25,17 +25,19 @@ BrickBlock randomBlock(std::mt19937& random, std::size_t rows) {
 
 TEST(BrickBlock, JacobianIsThatOfTheResiduals) {
   std::mt19937 random(3);
-  const BrickBlock block = randomBlock(random, 20);
+  BrickBlock block = randomBlock(random, 20);
+  block.hold = {0.7, {0.3, 0.4, 0.5}};
+  ASSERT_EQ(block.residuals(), 24);
   const UprightMotion motion(0.4, 0.1, -0.2, 0.3);
-  RowMajor4 jacobian(20, 4);
-  Eigen::VectorXd residuals(20);
+  RowMajor4 jacobian(24, 4);
+  Eigen::VectorXd residuals(24);
   block.evaluate(motion.data(), residuals.data(), jacobian.data());
   const double step = 1e-6;
   for (int k = 0; k < 4; ++k) {
     UprightMotion up = motion, down = motion;
     up[k] += step;
     down[k] -= step;
-    Eigen::VectorXd a(20), b(20);
+    Eigen::VectorXd a(24), b(24);
     block.evaluate(up.data(), a.data(), nullptr);
     block.evaluate(down.data(), b.data(), nullptr);
     EXPECT_LT(((a - b) / (2 * step) - jacobian.col(k)).norm(), 1e-7) << "parameter " << k;
@@ -46,7 +48,7 @@ TEST(BrickBlock, SquaresAddUpToTheWeightedMean) {
   std::mt19937 random(4);
   BrickBlock block = randomBlock(random, 12);
   const UprightMotion still = UprightMotion::Zero();
-  Eigen::VectorXd residuals(12);
+  Eigen::VectorXd residuals(16);
   block.evaluate(still.data(), residuals.data(), nullptr);
   double sum = 0.0, weights = 0.0;
   for (const Correspondence& c : block.correspondences) {
