@@ -70,6 +70,12 @@ const std::vector<Evaluation>& evaluations() {
        evaluateBuildOrder,
        {1, 1000},
        {kBlueprint}},
+      {"bricks",
+       "poses of individual bricks from synthetic sweeps before piles and walls, whole and "
+       "disturbed, against their truth; the paper's own method on the same sweeps",
+       evaluateBricks,
+       {1, 100},
+       {kCalibrate}},
       {"calibrate",
        "finds the mounting of LiDAR and thermal camera by moving the arm; --out FILE is for "
        "kiln-robotd --calibration",

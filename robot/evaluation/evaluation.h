@@ -68,6 +68,7 @@ struct Evaluation {
 [[nodiscard]] Result<EvaluationResult> evaluatePlaceCheck(const SweepOptions& options);
 [[nodiscard]] Result<EvaluationResult> evaluateResume(const SweepOptions& options);
 [[nodiscard]] Result<EvaluationResult> evaluateBuildOrder(const SweepOptions& options);
+[[nodiscard]] Result<EvaluationResult> evaluateBricks(const SweepOptions& options);
 [[nodiscard]] Result<EvaluationResult> calibrateSensors(const SweepOptions& options);
 [[nodiscard]] Result<EvaluationResult> calibrateSpray(const SweepOptions& options);
 

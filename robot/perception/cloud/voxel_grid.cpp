@@ -1,41 +1,14 @@
 #include "robot/perception/cloud/voxel_grid.h"
 
-#include <bit>
 #include <cmath>
 
 #include "common/core/check.h"
+#include "robot/perception/cloud/leaf_table.h"
 
 namespace kiln {
 namespace {
 
-constexpr std::uint64_t kEmpty = ~std::uint64_t{0};
 constexpr float kHalfExtent = 1 << 20;  // leaves each side: 21 bits an axis
-
-/// Open addressing over 2^k slots, at most half full.
-class LeafTable {
- public:
-  explicit LeafTable(std::size_t expected)
-      : slots_(std::bit_ceil(std::max<std::size_t>(16, 2 * expected)), {kEmpty, 0}) {}
-  /// Index stored for `key`, or `fresh` after storing it.
-  std::uint32_t find(std::uint64_t key, std::uint32_t fresh) {
-    std::size_t i = (key * 0x9E3779B97F4A7C15ull >> 20) & (slots_.size() - 1);
-    while (slots_[i].key != key) {
-      if (slots_[i].key == kEmpty) {
-        slots_[i] = {key, fresh};
-        return fresh;
-      }
-      i = (i + 1) & (slots_.size() - 1);
-    }
-    return slots_[i].index;
-  }
-
- private:
-  struct Slot {
-    std::uint64_t key;
-    std::uint32_t index;
-  };
-  std::vector<Slot> slots_;
-};
 
 }  // namespace
 
