@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -66,7 +67,14 @@ struct FsmStatus {
   std::vector<GuardStatus> guards;
   std::vector<FsmHistoryEntry> history;  ///< newest last, bounded
   std::string blocked;  ///< watchdog: "AimHose::execute has not returned for 1.2 s", else empty
+  /// How long the machine was held since `entered`, up to `stamp`; nullopt: a robot that does not
+  /// tell (recordings of before).
+  std::optional<Duration> paused_in_state{};
 };
+/// Time in the state without the pauses, as the state's own time limit counts it.
+[[nodiscard]] inline Duration timeInState(const FsmStatus& status) {
+  return status.stamp - status.entered - status.paused_in_state.value_or(Duration{});
+}
 
 enum class ChangeStateOutcome { Ok, Denied, NoSuchState, NeedsArguments, Moved };
 struct ChangeStateResult {

@@ -113,6 +113,9 @@ std::string encode(const FsmStatus& status) {
   }
   for (const FsmHistoryEntry& entry : status.history) toProto(entry, *out.add_history());
   out.set_blocked(status.blocked);
+  if (status.paused_in_state)
+    out.set_paused_in_state_ns(
+        std::chrono::duration_cast<std::chrono::nanoseconds>(*status.paused_in_state).count());
   return serialise(out);
 }
 
@@ -139,6 +142,8 @@ Result<FsmStatus> decodeFsmStatus(std::string_view bytes) {
     status.history.push_back(std::move(*entry));
   }
   status.blocked = in->blocked();
+  if (in->has_paused_in_state_ns())
+    status.paused_in_state = std::chrono::nanoseconds(in->paused_in_state_ns());
   return status;
 }
 

@@ -71,8 +71,10 @@ double FsmModel::timeInStateS() const {
   return std::max(0.0, since_s + (running ? std::clamp(ageS(), 0.0, kUnheard_s) : 0.0));
 }
 
-/// After a jump in a recording this station has not seen what came before; the recording has.
+/// A robot that does not tell is an older recording: this station has not seen what came before a
+/// jump in it; the recording has.
 Duration FsmModel::pausedInState() const {
+  if (status_->paused_in_state) return *status_->paused_in_state;
   return whole_ ? whole_->paused(status_->entered, status_->stamp) : paused_;
 }
 

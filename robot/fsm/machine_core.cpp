@@ -45,6 +45,7 @@ FsmStatus MachineCore::status(Stamp now) const {
   if (!current_) return status;
   status.state = current_->name();
   status.entered = entered_;
+  status.paused_in_state = paused_in_state_ + (paused() ? now - paused_since_ : Duration{});
   status.running = running_;
   status.paused = paused();
   status.terminal = entry().info.terminal;

@@ -157,6 +157,25 @@ TEST(Messages, SceneAndGraphComeBack) {
   EXPECT_EQ(encode(*fsm), encode(status));
 }
 
+TEST(Messages, ARecordingThatDoesNotTellHowLongTheMachineWasHeldIsRead) {
+  FsmStatus status;
+  status.state = "AimHose";
+  status.entered = at(2);
+  status.stamp = at(30);
+  const std::string before = encode(status);
+  status.paused_in_state = Duration{};
+  EXPECT_NE(encode(status), before) << "not held is not the same as not told";
+  const auto old = decodeFsmStatus(before);
+  ASSERT_TRUE(old.has_value()) << old.error();
+  EXPECT_FALSE(old->paused_in_state);
+  EXPECT_EQ(timeInState(*old), fromSeconds(28.0));
+  status.paused_in_state = fromSeconds(20.5);
+  const auto told = decodeFsmStatus(encode(status));
+  ASSERT_TRUE(told.has_value()) << told.error();
+  EXPECT_EQ(told->paused_in_state, fromSeconds(20.5));
+  EXPECT_EQ(timeInState(*told), fromSeconds(7.5));
+}
+
 TEST(Messages, AnItemThatCannotBeDrawnIsRefused) {
   const auto refused = [](auto spoil) {
     Scene scene;

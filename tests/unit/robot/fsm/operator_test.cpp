@@ -24,6 +24,29 @@ TEST(MachinePause, StopsThePollingAndTheTimeInTheState) {
   EXPECT_EQ(f.kettle.calls[4], "Heat.resume");
 }
 
+TEST(MachinePause, TellsHowLongTheStateWasHeld) {
+  Fixture f;
+  f.machine.start("", f.clock.now());
+  f.run(1.0);
+  EXPECT_EQ(f.status().paused_in_state, Duration{});
+  const auto hold = [&](double seconds) {
+    f.machine.pause("operator", f.clock.now());
+    f.run(0.5 * seconds);
+    const Duration half = *f.status().paused_in_state;
+    f.run(0.5 * seconds);
+    EXPECT_GT(*f.status().paused_in_state, half) << "while it lasts, too";
+    f.machine.resume(f.clock.now());
+  };
+  hold(20.0);
+  f.run(1.0);
+  hold(10.0);
+  f.run(1.0);
+  EXPECT_NEAR(toSeconds(*f.status().paused_in_state), 30.0, 0.1);
+  EXPECT_NEAR(toSeconds(timeInState(f.status())), 3.0, 0.1);
+  ASSERT_EQ(f.force("Heat").outcome, ChangeStateOutcome::Ok);
+  EXPECT_EQ(f.status().paused_in_state, Duration{}) << "another state, another count";
+}
+
 TEST(MachinePause, DefersEnterOfAStateForcedMeanwhile) {
   Fixture f;
   f.machine.start("", f.clock.now());
