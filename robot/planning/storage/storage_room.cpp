@@ -19,7 +19,7 @@ OrientedBox boxBetween(const CompartmentConfig& row, double position_m,
 }
 
 double halfWidth(const CompartmentConfig& row) {
-  return 0.5 * (row.bins * row.pitch() + row.plate_m);
+  return 0.5 * (row.bins * row.pitch() + row.sheet_m);
 }
 
 /// Everything that a full compartment fills while it travels between two positions.
@@ -27,8 +27,8 @@ OrientedBox envelope(const CompartmentConfig& row, const StorageConfig& config, 
                      double to_m) {
   const double side = halfWidth(row);
   const double top = std::max(row.wall_height_m, config.max_stack_m);
-  return boxBetween(row, 0.0, {0.0, from_m - side, -row.plate_m},
-                    {row.bin_depth_m + row.plate_m, to_m + side, top}, row.name);
+  return boxBetween(row, 0.0, {0.0, from_m - side, -row.sheet_m},
+                    {row.bin_depth_m + row.sheet_m, to_m + side, top}, row.name);
 }
 
 /// What a brick and the gripper before it fill on the way from the front into a bin.
