@@ -29,7 +29,7 @@ struct GroundPlaneConfig {
   double tolerance_m = 0.03;    ///< of a point of the ground
   double max_slope_deg = 12.0;  ///< steeper is not ground
   int min_points = 40;
-  double min_share = 0.4;        ///< of the points in the circle
+  double min_share = 0.3;        ///< of the points in the circle
   double lidar_sigma_deg = 0.3;  ///< mounting of the LiDAR, each axis, common to all points
   double lidar_sigma_m = 0.005;
   double noise_m = 0.01;  ///< height of a point, one sigma

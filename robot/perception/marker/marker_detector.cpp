@@ -1,6 +1,7 @@
 #include "robot/perception/marker/marker_detector.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -21,6 +22,28 @@ cv::Mat inVolume(const cv::Mat& hsv, const HsvVolume& v) {
   cv::inRange(hsv, cv::Scalar(v.hue_min, s, b), cv::Scalar(179, 255, 255), upper);
   cv::inRange(hsv, cv::Scalar(0, s, b), cv::Scalar(v.hue_max, 255, 255), mask);
   return mask | upper;
+}
+
+/// The yellow volume, purer where yellow is so common that it must be the ground.
+HsvVolume yellowAbove(const cv::Mat& hsv, const MarkerDetector::Config& config) {
+  HsvVolume out = config.yellow;
+  const cv::Mat mask = inVolume(hsv, config.yellow);
+  if (cv::countNonZero(mask) < config.ground_share * static_cast<double>(mask.total())) return out;
+  std::array<int, 256> count{};
+  int all = 0;
+  for (int v = 0; v < hsv.rows; v += 2)
+    for (int u = 0; u < hsv.cols; u += 2)
+      if (mask.at<std::uint8_t>(v, u) != 0) {
+        ++count[hsv.at<cv::Vec3b>(v, u)[1]];
+        ++all;
+      }
+  int below = 0, median = 0;
+  while (median < 255 && below + count[static_cast<std::size_t>(median)] <= all / 2)
+    below += count[static_cast<std::size_t>(median++)];
+  constexpr int kPurest = 150;  // the marker's own yellow is purer than this
+  out.saturation_min =
+      std::max(out.saturation_min, std::min(median + config.ground_margin, kPurest));
+  return out;
 }
 
 /// Where at least `share` of the window around a pixel is of `colour`.
@@ -122,6 +145,11 @@ void HsvVolume::visit(ConfigArchive& a) {
 void MarkerDetector::Config::visit(ConfigArchive& a) {
   a.section("yellow", yellow, "the marker's yellow, and what both colours blend to far away");
   a.section("magenta", magenta, "the marker's magenta");
+  a.field("adapt", adapt, "colours in shadow too, and a yellow purer than the ground's");
+  a.section("yellow_shade", yellow_shade, "the marker's yellow in shadow");
+  a.section("magenta_shade", magenta_shade, "the marker's magenta in shadow");
+  a.field("ground_share", ground_share, "", 0, 1, "of the picture in yellow: it is the ground");
+  a.field("ground_margin", ground_margin, "", 0, 255, "saturation above the ground's median");
   a.field("vicinity_px", vicinity_px, "px", 1, 100, "half a window that must hold both colours");
   a.field("vicinity_share", vicinity_share, "", 0, 1, "of that window, of the other colour");
   a.field("max_corners", max_corners, "", 10, 5000, "of each mask");
@@ -153,7 +181,12 @@ MarkerView MarkerDetector::detect(const RgbImage& image) const {
   const cv::Mat rgb(size, CV_8UC3, const_cast<std::uint8_t*>(image.data.data()));
   cv::Mat hsv;
   cv::cvtColor(rgb, hsv, cv::COLOR_RGB2HSV);
-  const cv::Mat yellow = inVolume(hsv, config_.yellow), magenta = inVolume(hsv, config_.magenta);
+  cv::Mat yellow = inVolume(hsv, config_.adapt ? yellowAbove(hsv, config_) : config_.yellow);
+  cv::Mat magenta = inVolume(hsv, config_.magenta);
+  if (config_.adapt) {
+    magenta |= inVolume(hsv, config_.magenta_shade);
+    yellow |= inVolume(hsv, config_.yellow_shade) & ~magenta;
+  }
   const cv::Mat near_yellow =
       yellow & vicinity(magenta & 1, config_.vicinity_px, config_.vicinity_share);
   const cv::Mat near_magenta =

@@ -65,15 +65,22 @@ class MarkerDetector {
   struct Config {
     HsvVolume yellow{0, 35, 40, 150};  ///< as used on site (hardware.md section 8)
     HsvVolume magenta{154, 174, 40, 100};
-    int vicinity_px = 16;           ///< half a window in which the other colour must be
-    double vicinity_share = 0.03;   ///< of that window
+    /// Beyond the paper: both colours in shadow (darker, bluer, so purer ones only), and a yellow
+    /// that is purer than the ground where the ground itself is yellowish (sand, low sun).
+    bool adapt = true;
+    HsvVolume yellow_shade{15, 42, 110, 60};
+    HsvVolume magenta_shade{145, 176, 90, 45};
+    double ground_share = 0.08;     ///< of the picture in the yellow volume: it is the ground
+    int ground_margin = 45;         ///< saturation above the ground's median
+    int vicinity_px = 20;           ///< half a window in which the other colour must be
+    double vicinity_share = 0.006;  ///< of that window
     int max_corners = 600;          ///< of each mask
     double corner_quality = 0.10;   ///< of the strongest
     double corner_distance_px = 3;  ///< between corners of a mask
     double agree_px = 2.5;          ///< between the two masks
-    int closing_px = 5;             ///< gaps of the fused mask that are closed
+    int closing_px = 9;             ///< gaps of the fused mask that are closed
     int min_pixels = 120;           ///< smaller clusters are not listed
-    int min_votes = 8;
+    int min_votes = 5;
     double min_vote_share = 0.2;     ///< of the winner's votes
     double min_colour_share = 0.08;  ///< of each of the two colours in a candidate
     int max_pixels = 1500;           ///< kept of a candidate

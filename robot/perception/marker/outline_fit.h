@@ -39,7 +39,7 @@ struct OutlineFitConfig {
   double sigma_px = 1.0;         ///< of a point of the outline
   double offset_sigma_px = 1.0;  ///< of the mask's edge against the marker's, common to all points
   int max_points = 3000;         ///< used, thinned evenly
-  double independent_points = 300;  ///< as many the points are worth: neighbours err together
+  double independent_points = 60;  ///< as many the points are worth: neighbours err together
   double first_gate_m = 1.2;
   double last_gate_sigma = 3.5;
   int rounds = 6;  ///< of assigning and fitting, the gate halved each time
