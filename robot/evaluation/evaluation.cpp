@@ -18,6 +18,7 @@ const EvaluationOption kBlueprint{
     "--blueprint",
     "a blueprint file instead of random ones; its orders are told brick by brick",
     {}};
+const EvaluationOption kPictures{"--pictures", "of each look of 10 s (default: 12)", {}};
 const EvaluationOption kOut{"--out", "where the result is written", &SweepOptions::out};
 
 }  // namespace
@@ -47,6 +48,13 @@ const std::vector<Evaluation>& evaluations() {
        "truth",
        evaluateMapping,
        {1, 3}},
+      {"marker",
+       "pose of the wall marker from 4, 7 and 11 m on painted pictures, the paper's method beside "
+       "it, "
+       "and what is no whole marker",
+       evaluateMarker,
+       {1, 40},
+       {kPictures}},
       {"fallback",
        "litres delivered by hand commands alone over the operator link, real time",
        evaluateFallback,

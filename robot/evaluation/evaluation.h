@@ -64,6 +64,7 @@ struct Evaluation {
 [[nodiscard]] Result<EvaluationResult> evaluateRelocalization(const SweepOptions& options);
 [[nodiscard]] Result<EvaluationResult> evaluateFallback(const SweepOptions& options);
 [[nodiscard]] Result<EvaluationResult> evaluateStop(const SweepOptions& options);
+[[nodiscard]] Result<EvaluationResult> evaluateMarker(const SweepOptions& options);
 [[nodiscard]] Result<EvaluationResult> evaluateMapping(const SweepOptions& options);
 [[nodiscard]] Result<EvaluationResult> evaluatePlaceCheck(const SweepOptions& options);
 [[nodiscard]] Result<EvaluationResult> evaluateResume(const SweepOptions& options);
