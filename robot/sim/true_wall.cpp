@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <sstream>
 
 #include <fmt/format.h>
 
 #include "common/config/resources.h"
-#include "common/core/regular_file.h"
 #include "common/core/units.h"
+#include "robot/scene/blueprint.h"
 #include "robot/sim/random.h"
 #include "robot/sim/true_arena.h"
 
@@ -127,27 +126,11 @@ Result<std::vector<Stack>> drawPile(const WallConfig& config, const WallSiteMap&
   return stacks;
 }
 
-/// As in the competition: each layer four red, two green, one blue in any order.
-Blueprint drawBlueprint(std::uint64_t seed) {
-  using enum BrickKind;
-  Random random(seed, "blueprint");
-  Blueprint out;
-  for (std::size_t layer = 0; layer < kWallLayers; ++layer) {
-    std::vector<BrickKind> kinds{Red, Red, Red, Red, Green, Green, Blue};
-    for (std::size_t i = kinds.size() - 1; i > 0; --i)
-      std::swap(kinds[i], kinds[random.bits() % (i + 1)]);
-    out.layers.push_back(std::move(kinds));
-  }
-  return out;
-}
-
 Result<Blueprint> blueprint(const WallConfig& config, const WallSiteMap& site, std::uint64_t seed) {
-  if (config.blueprint.empty()) return drawBlueprint(seed);
+  if (config.blueprint.empty()) return randomBlueprint(seed);
   const auto path = resourcePath(config.blueprint);
   if (!path) return tl::make_unexpected(path.error());
-  const auto text = readRegularFile(*path, 1 << 16);
-  if (!text) return tl::make_unexpected(text.error());
-  auto read = readBlueprint(*text, *path);
+  auto read = loadBlueprint(*path);
   // The second leg is all orange: a pile without orange bricks is for a wall of one leg.
   if (read)
     read->orange_leg = std::any_of(site.stacks.begin(), site.stacks.end(), [](const auto& stack) {
@@ -157,29 +140,6 @@ Result<Blueprint> blueprint(const WallConfig& config, const WallSiteMap& site, s
 }
 
 }  // namespace
-
-Result<Blueprint> readBlueprint(const std::string& text, const std::string& file) {
-  Blueprint out;
-  std::istringstream in(text);
-  std::string line;
-  for (int row = 1; std::getline(in, line); ++row) {
-    std::vector<BrickKind> layer;
-    for (std::size_t column = 0; column < line.size(); ++column) {
-      if (line[column] == ' ' || line[column] == '\r' || line[column] == '\t') continue;
-      const auto shape =
-          std::find_if(kBrickShapes.begin(), kBrickShapes.end(),
-                       [&](const BrickShape& s) { return s.letter == line[column]; });
-      if (shape == kBrickShapes.end() || shape->kind == BrickKind::Orange)
-        return makeError(ErrorCode::InvalidInput, "{}:{}:{}: '{}' is no brick; write R, G or B",
-                         file, row, column + 1, line[column]);
-      layer.push_back(shape->kind);
-    }
-    if (!layer.empty()) out.layers.insert(out.layers.begin(), std::move(layer));
-  }
-  if (out.layers.empty())
-    return makeError(ErrorCode::InvalidInput, "{}: a blueprint without a brick", file);
-  return out;
-}
 
 Eigen::Isometry3d TrueWall::markerInMap() const {
   return makePose({X_map_wall.x_m, X_map_wall.y_m, ground_z_m}, {0, 0, X_map_wall.yaw_rad});

@@ -39,8 +39,4 @@ struct TrueWall {
                                               const GroundProfile& ground) const;
 };
 
-/// A blueprint in the official format: a line a layer, the top one first, letters R G B.
-/// Error: InvalidInput with line and column.
-[[nodiscard]] Result<Blueprint> readBlueprint(const std::string& text, const std::string& file);
-
 }  // namespace kiln::sim

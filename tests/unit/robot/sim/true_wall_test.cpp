@@ -76,17 +76,6 @@ TEST(TrueWall, TheAerialPileIsSceneryOfTheSameBricks) {
   for (const SolidBox& box : without) EXPECT_FALSE(box.solid) << "a marker is no obstacle";
 }
 
-TEST(TrueWall, ABlueprintIsReadFromTheTop) {
-  const auto read = readBlueprint("R G B\r\n\r\nB R\r\n", "wall.txt");
-  ASSERT_TRUE(read.has_value()) << read.error();
-  using enum BrickKind;
-  EXPECT_EQ(read->layers, (std::vector<std::vector<BrickKind>>{{Blue, Red}, {Red, Green, Blue}}));
-  const auto wrong = readBlueprint("R G B\nR X B\n", "wall.txt");
-  ASSERT_FALSE(wrong.has_value());
-  EXPECT_EQ(wrong.error().message, "wall.txt:2:3: 'X' is no brick; write R, G or B");
-  EXPECT_FALSE(readBlueprint("\n", "wall.txt").has_value());
-}
-
 TEST(TrueWall, APileWithoutRoomIsRefusedInWords) {
   WallSiteMap tight = site("arena_wall_lab.yaml");
   tight.stack_gap_m = 0.0;  // and nothing that could move one aside
