@@ -22,6 +22,7 @@ namespace {
 constexpr int kIdle_ms = 200;
 constexpr double kRepeat_s = 0.05;
 constexpr std::size_t kMaxRequest = 128 << 10;
+constexpr std::size_t kMaxPeers = 256;  // half a second of callers, for who shakes hands slowly
 constexpr std::string_view kUnreadable = "\xFF";  // no message of any kind
 }  // namespace
 
@@ -52,6 +53,7 @@ Result<std::unique_ptr<StopServer>> StopServer::bind(const std::string& address,
                                                      Handler on_request) {
   ZmtpServer::Limits limits;
   limits.max_message_bytes = kMaxRequest;
+  limits.max_peers = kMaxPeers;
   auto server = ZmtpServer::bind(address, ZmtpKind::Router, limits);
   if (!server) return tl::make_unexpected(server.error());
   auto impl = std::make_unique<Impl>(std::move(on_request));

@@ -118,24 +118,32 @@ void ZmtpServer::Impl::close(Connection& c, const std::string& why) {
 }
 
 /// Whom a newcomer may displace: who has not shaken hands, else the oldest of the process that has
-/// most connections, but nobody whom the caller knows. @return false: all are known.
+/// most connections, but nobody whom the caller knows. Nobody is judged by what he has said and
+/// nobody has read yet. @return false: all are known.
 bool ZmtpServer::Impl::makeRoom() {
+  full_log.warn("{} connections at one socket are too many; the last came from {}",
+                connections.size(), connections.rbegin()->second.who.name());
   std::map<int, int> by_process;
   for (const auto& [id, c] : connections) ++by_process[c.who.process];
-  Connection* victim = nullptr;
   const auto rank = [&](const Connection& c) {
     return std::pair(!c.peer.ready(), by_process[c.who.process]);
   };
-  for (auto& [id, c] : connections) {
-    if (c.kept || c.gone) continue;
-    if (victim == nullptr || rank(c) > rank(*victim)) victim = &c;
+  for (;;) {
+    auto victim = connections.end();
+    for (auto at = connections.begin(); at != connections.end(); ++at) {
+      if (at->second.kept || at->second.gone) continue;
+      if (victim == connections.end() || rank(at->second) > rank(victim->second)) victim = at;
+    }
+    if (victim == connections.end()) return false;
+    Connection& c = victim->second;
+    if (!c.peer.ready()) {
+      read(victim->first, c);
+      if (c.peer.ready() && !c.gone) continue;  // each only once
+    }
+    close(c, "");
+    reap();
+    return true;
   }
-  full_log.warn("{} connections at one socket are too many; the last came from {}",
-                connections.size(), connections.rbegin()->second.who.name());
-  if (victim == nullptr) return false;
-  close(*victim, "");
-  reap();
-  return true;
 }
 
 void ZmtpServer::Impl::acceptSome(Monotonic::time_point now) {

@@ -1,7 +1,6 @@
 #include "robot/scene/wall_site_map.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -43,11 +42,11 @@ void BrickStackConfig::visit(ConfigArchive& a) {
   a.field("bricks", bricks, "", 1, 10, "on top of each other");
 }
 
-BrickKind BrickStackConfig::brickKind() const {
+PileStack BrickStackConfig::stack() const {
   const auto found = std::find_if(kBrickShapes.begin(), kBrickShapes.end(),
                                   [&](const BrickShape& shape) { return shape.name == kind; });
   KILN_CHECK(found != kBrickShapes.end(), kind);
-  return found->kind;
+  return {found->kind, line, bricks};
 }
 
 void WallSiteMap::visit(ConfigArchive& a) {
@@ -71,30 +70,25 @@ Result<void> WallSiteMap::validate() const {
   return {};
 }
 
-double WallSiteMap::pileLength() const {
-  std::array<double, 2> length{};
-  for (const BrickStackConfig& stack : stacks)
-    length[static_cast<std::size_t>(stack.line - 1)] +=
-        brickShape(stack.brickKind()).length_m + stack_gap_m;
-  return std::max(0.0, std::max(length[0], length[1]) - stack_gap_m);
+PileLayout WallSiteMap::layout() const {
+  PileLayout out{{}, stack_gap_m, line_distance_m};
+  for (const BrickStackConfig& config : stacks) out.stacks.push_back(config.stack());
+  return out;
 }
 
 SiteFixtures WallSiteMap::fixtures() const {
   SiteFixtures out;
-  std::array<double, 2> at{};
   const Pose2 X_map_pile = pile.pose();
-  for (const BrickStackConfig& stack : stacks) {
-    const auto line = static_cast<std::size_t>(stack.line - 1);
-    const double length = brickShape(stack.brickKind()).length_m;
-    const double height = stack.bricks * kBrickSide_m;
-    const Pose2 X = X_map_pile * Pose2{at[line] + length / 2.0,
-                                       static_cast<double>(line) * line_distance_m, 0.0};
-    out.boxes.push_back({fmt::format("pile, {} stack {}", stack.kind, out.boxes.size() + 1),
+  const PileLayout planned = layout();
+  const std::vector<Eigen::Vector2d> middles = planned.middles();
+  for (std::size_t i = 0; i < middles.size(); ++i) {
+    const double height = planned.stacks[i].bricks * kBrickSide_m;
+    const Pose2 X = X_map_pile * Pose2{middles[i].x(), middles[i].y(), 0.0};
+    out.boxes.push_back({fmt::format("pile, {} stack {}", stacks[i].kind, i + 1),
                          {{X.x_m, X.y_m, height / 2.0}, {0, 0, X.yaw_rad / kDeg}},
-                         {length, kBrickSide_m, height}});
-    at[line] += length + stack_gap_m;
+                         {planned.stacks[i].length(), kBrickSide_m, height}});
   }
-  out.stands.push_back(stand(X_map_pile, pileLength() / 2.0, -kStandOff_m));
+  out.stands.push_back(stand(X_map_pile, planned.length() / 2.0, -kStandOff_m));
   out.stands.push_back(stand(marker.pose(), 2.0, -kStandOff_m));
   return out;
 }

@@ -4,24 +4,23 @@
 #include <vector>
 
 #include "robot/scene/arena_map.h"
-#include "robot/scene/brick.h"
+#include "robot/scene/pile_layout.h"
 
 namespace kiln {
 
-/// Bricks of one kind on top of each other, lying along X of the pile.
+/// A PileStack as it is written in a file.
 struct BrickStackConfig {
   std::string kind = "red";  ///< a name of kBrickShapes
   int line = 1;              ///< 1: the first line, 2: behind it
   int bricks = 5;
   void visit(ConfigArchive& a);
-  [[nodiscard]] BrickKind brickKind() const;
+  [[nodiscard]] PileStack stack() const;
 };
 
 /// Nominal site of Challenge 2, as the autonomy and the station know it
 /// (resources/config/wall_site_*.yaml). The simulator draws its own from it with the errors of
 /// scenario.md section 4.
-/// Pile frame: on the ground, at the beginning of the middle of line 1; X along that line, Y towards
-/// line 2, Z up. Wall frame: wall_layout.h.
+/// Pile frame: pile_layout.h; wall frame: wall_layout.h.
 struct WallSiteMap {
   GroundPoseConfig pile;                       ///< X_map_pile, known to known_m and known_deg
   GroundPoseConfig marker;                     ///< X_map_wall, likewise
@@ -33,8 +32,7 @@ struct WallSiteMap {
   void visit(ConfigArchive& a);
   /// Error: pile or marker lies outside of the search area.
   [[nodiscard]] Result<void> validate() const;
-  /// Along X of the longer line.
-  [[nodiscard]] double pileLength() const;
+  [[nodiscard]] PileLayout layout() const;
   /// The stacks as boxes where they are believed to stand, and stands before pile and marker.
   [[nodiscard]] SiteFixtures fixtures() const;
 };

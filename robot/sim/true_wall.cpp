@@ -98,19 +98,17 @@ bool clear(const Stack& stack, const std::vector<Stack>& others) {
 Result<std::vector<Stack>> drawPile(const WallConfig& config, const WallSiteMap& site,
                                     const Pose2& X_map_pile, double size_m, std::uint64_t seed) {
   std::vector<Stack> stacks;
-  std::array<double, 2> at{};
   std::array<int, kBrickKinds> count{};
-  for (const BrickStackConfig& planned : site.stacks) {
-    const BrickKind kind = planned.brickKind();
-    const auto line = static_cast<std::size_t>(planned.line - 1);
-    const double length = brickShape(kind).length_m;
+  const PileLayout layout = site.layout();
+  const std::vector<Eigen::Vector2d> middles = layout.middles();
+  for (const PileStack& planned : layout.stacks) {
+    const Eigen::Vector2d& middle = middles[stacks.size()];
     Random random(seed, "stack " + std::to_string(stacks.size()));
     Stack stack;
     for (int i = 0; i < planned.bricks; ++i)
-      stack.bricks.push_back(
-          drawBrick(kind, ++count[static_cast<std::size_t>(kind)], config, size_m, random));
-    const Pose2 X = X_map_pile * Pose2{at[line] + 0.5 * length,
-                                       static_cast<double>(line) * site.line_distance_m, 0.0};
+      stack.bricks.push_back(drawBrick(
+          planned.kind, ++count[static_cast<std::size_t>(planned.kind)], config, size_m, random));
+    const Pose2 X = X_map_pile * Pose2{middle.x(), middle.y(), 0.0};
     int tries = 0;
     do place(stack, X, config, random);
     while (!clear(stack, stacks) && ++tries < kTries);
@@ -119,9 +117,8 @@ Result<std::vector<Stack>> drawPile(const WallConfig& config, const WallSiteMap&
           ErrorCode::InvalidInput,
           "the stack of {} bricks at x = {:.1f} m of the pile finds no place beside its "
           "neighbours; take smaller errors or a larger stack_gap_m",
-          planned.kind, at[line]);
+          brickShape(planned.kind).name, middle.x());
     stacks.push_back(std::move(stack));
-    at[line] += length + site.stack_gap_m;
   }
   return stacks;
 }
@@ -134,7 +131,7 @@ Result<Blueprint> blueprint(const WallConfig& config, const WallSiteMap& site, s
   // The second leg is all orange: a pile without orange bricks is for a wall of one leg.
   if (read)
     read->orange_leg = std::any_of(site.stacks.begin(), site.stacks.end(), [](const auto& stack) {
-      return stack.brickKind() == BrickKind::Orange;
+      return stack.stack().kind == BrickKind::Orange;
     });
   return read;
 }
@@ -151,7 +148,7 @@ Result<TrueWall> TrueWall::draw(const WallConfig& config, const WallSiteMap& sit
   if (site.stacks.empty()) return wall;
   Random random(seed, "wall site");
   // Turned about their own middles: the pile's ends stay within what is known of it.
-  const Pose2 middle{0.5 * site.pileLength(), 0, 0};
+  const Pose2 middle{0.5 * site.layout().length(), 0, 0};
   const auto displaced = [&](const Pose2& X, const Pose2& pivot) {
     const Pose2 error = jitter(random, config.site_m, config.site_deg);
     const Pose2 X_pivot = X * pivot;

@@ -5,24 +5,14 @@
 #include "robot/evaluation/bricks/brick_trial.h"
 #include "robot/evaluation/bricks/processor_clock.h"
 #include "robot/perception/bricks/brick_perception.h"
-#include "robot/scene/pile_layout.h"
 #include "tests/unit/robot/perception/bricks/render_cloud.h"
 
 namespace kiln {
 namespace {
 
-ModelWorld pile() {
-  ModelWorld world;
-  int id = 0;
-  for (const PileSlot& slot : pileSlots(arenaPile()))
-    world.bricks.push_back({id++, slot.kind, slot.X_pile_brick});
-  world.sensors = {{1.9, -2.8, 1.55}};
-  return world;
-}
-
 /// As pose estimation uses it: faces on a lattice of 2 cm.
 void modelCloud(benchmark::State& state) {
-  ModelWorld world = pile();
+  ModelWorld world = pileSeenFromAhead();
   ModelCloudGenerator generator({});
   for (auto _ : state) {
     world.sensors[0].x() += 1e-6;
@@ -33,14 +23,14 @@ BENCHMARK(modelCloud)->Unit(benchmark::kMillisecond);
 
 /// What the unit test ModelCloud.EqualsTheRender compares: 1 cm, thinned to 2 cm.
 void modelCloudThinned(benchmark::State& state) {
-  const ModelWorld world = pile();
+  const ModelWorld world = pileSeenFromAhead();
   ModelCloudGenerator generator({0.01, 0.05});
   for (auto _ : state) benchmark::DoNotOptimize(voxelised(generator.generate(world).points, 0.02));
 }
 BENCHMARK(modelCloudThinned)->Unit(benchmark::kMillisecond);
 
 void render2800Thinned(benchmark::State& state) {
-  const ModelWorld world = pile();
+  const ModelWorld world = pileSeenFromAhead();
   for (auto _ : state) benchmark::DoNotOptimize(voxelised(renderCloud(world, 2800), 0.02));
 }
 BENCHMARK(render2800Thinned)->Unit(benchmark::kMillisecond);

@@ -79,15 +79,15 @@ const TrueBrick* BrickScene::find(int id) const {
 }
 
 BrickScene makePileScene(bool lab, SceneRandom& random) {
-  const std::vector<PileStack> stacks = lab ? labPile() : arenaPile();
+  const PileLayout layout = lab ? labPile() : arenaPile();
   BrickScene scene;
   scene.X_world_target =
       makePose({uniform(random, 5), uniform(random, 5), 0}, {0, 0, uniform(random, M_PI)});
   std::vector<Eigen::Vector3d> offset;
-  for (std::size_t s = 0; s < stacks.size(); ++s)
+  for (std::size_t s = 0; s < layout.stacks.size(); ++s)
     offset.emplace_back(uniform(random, 0.05), uniform(random, 0.05), uniform(random, 10.0 * kDeg));
   double height = 0.0;
-  for (const PileSlot& slot : pileSlots(stacks)) {
+  for (const PileSlot& slot : layout.slots()) {
     TrueBrick brick;
     brick.id = static_cast<int>(scene.database.size());
     brick.kind = slot.kind;

@@ -6,14 +6,14 @@
 #include "common/core/units.h"
 #include "common/geom/frames.h"
 #include "common/geom/pose.h"
+#include "robot/drivers/velodyne/codec/vlp16_decoder.h"
 #include "robot/scene/primitive_meshes.h"
 
 namespace kiln {
 namespace {
 
 constexpr double kFiring_s = 2.304e-6;  // VLP-16 manual: one laser after the other
-constexpr std::array<int, 16> kElevation_deg = {-15, 1, -13, 3,  -11, 5,  -9, 7,
-                                                -7,  9, -5,  11, -3,  13, -1, 15};
+constexpr auto& kElevation_deg = velodyne::Vlp16Decoder::kElevation_deg;
 
 /// Lasers by elevation: the neighbours of one are the next rings.
 std::array<std::array<int, 2>, 16> ringNeighbours() {

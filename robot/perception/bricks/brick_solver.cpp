@@ -1,14 +1,15 @@
 #include <ceres/ceres.h>
 
 #include "common/core/check.h"
+#include "robot/perception/bricks/block_cost.h"
 #include "robot/perception/bricks/brick_blocks.h"
 
 namespace kiln {
 namespace {
 
-class BrickCost final : public ceres::CostFunction {
+class BlockCost final : public ceres::CostFunction {
  public:
-  explicit BrickCost(const BrickBlock& block) : block_(block) {
+  explicit BlockCost(const BrickBlock& block) : block_(block) {
     set_num_residuals(block.residuals());
     mutable_parameter_block_sizes()->push_back(4);
   }
@@ -36,13 +37,15 @@ class PairCost final : public ceres::SizedCostFunction<PairBlock::kResiduals, 4,
 
 }  // namespace
 
+ceres::CostFunction* newBlockCost(const BrickBlock& block) { return new BlockCost(block); }
+
 SolveSummary solveBricks(std::span<const BrickBlock> blocks, std::span<const BrickPair> pairs,
                          std::span<UprightMotion> motions, const SolveLimits& limits) {
   KILN_CHECK(blocks.size() == motions.size(), blocks.size(), motions.size());
   ceres::Problem problem;
   for (std::size_t i = 0; i < blocks.size(); ++i)
     if (!blocks[i].correspondences.empty() || blocks[i].hold.yaw > 0.0)
-      problem.AddResidualBlock(new BrickCost(blocks[i]), nullptr, motions[i].data());
+      problem.AddResidualBlock(newBlockCost(blocks[i]), nullptr, motions[i].data());
   for (const BrickPair& pair : pairs)
     problem.AddResidualBlock(new PairCost(pair.block), nullptr, motions[pair.a].data(),
                              motions[pair.b].data());

@@ -21,13 +21,10 @@ struct Line {
   int layers = 0;
 };
 
-Line lineOf(std::span<const PileStack> stacks, int number) {
-  Line line;
-  for (const PileStack& stack : stacks) {
-    if (stack.line != number) continue;
-    line.length_m += brickShape(stack.kind).length_m + (line.layers > 0 ? kPileGap_m : 0.0);
-    line.layers = std::max(line.layers, stack.bricks);
-  }
+Line lineOf(const PileLayout& layout, int number) {
+  Line line{layout.lineLength(number), 0};
+  for (const PileStack& stack : layout.stacks)
+    if (stack.line == number) line.layers = std::max(line.layers, stack.bricks);
   return line;
 }
 
@@ -80,8 +77,8 @@ std::string PileDetector::whyNot(const PileCandidate& c, double length_m, int la
 }
 
 Result<PileSearch> PileDetector::detect(const BrickSweep& sweep, const SearchArea& area,
-                                        std::span<const PileStack> stacks) const {
-  const Line front = lineOf(stacks, 1), behind = lineOf(stacks, 2);
+                                        const PileLayout& layout) const {
+  const Line front = lineOf(layout, 1), behind = lineOf(layout, 2);
   if (front.layers == 0)
     return makeError(ErrorCode::InvalidInput, "the pile's layout has no stack in line 1");
   const Eigen::Isometry3f X_area_base = area.X_base_area.inverse().cast<float>();
@@ -150,7 +147,7 @@ Result<PileSearch> PileDetector::detect(const BrickSweep& sweep, const SearchAre
     for (const PileCandidate& other : second) {
       const Eigen::Vector2d d = (other.p_base - c.p_base).head<2>();
       const double turn = std::abs(std::remainder(other.yaw_rad - c.yaw_rad, M_PI));
-      if (std::abs(std::abs(y.dot(d)) - kPileLineDistance_m) > config_.line_tolerance_m ||
+      if (std::abs(std::abs(y.dot(d)) - layout.line_distance_m) > config_.line_tolerance_m ||
           turn > config_.line_tolerance_deg * kDeg || std::abs(x.dot(d)) > 1.0)
         continue;
       choice.pair = true;

@@ -63,11 +63,11 @@ class PileDetector {
   explicit PileDetector(const Config& config) : config_(config) {}
 
   /// @param sweep   one or several scans in base.
-  /// @param stacks  what the pile consists of.
+  /// @param layout  of the pile that is looked for.
   /// @return Error{Degenerate}: nothing in the area, or no ground; a search without a pile is no
   ///         Error.
   [[nodiscard]] Result<PileSearch> detect(const BrickSweep& sweep, const SearchArea& area,
-                                          std::span<const PileStack> stacks) const;
+                                          const PileLayout& layout) const;
 
  private:
   [[nodiscard]] std::string whyNot(const PileCandidate& candidate, double length_m,

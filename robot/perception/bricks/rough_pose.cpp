@@ -7,6 +7,7 @@
 #include <ceres/ceres.h>
 
 #include "common/geom/pose.h"
+#include "robot/perception/bricks/block_cost.h"
 #include "robot/perception/bricks/point_tree.h"
 
 namespace kiln {
@@ -15,21 +16,6 @@ namespace {
 constexpr double kStill_m = 5e-4, kStill_rad = 2e-4;  // a step this small ends a stage
 constexpr float kBeside_m = 0.05F;                    // overlap is counted within it
 constexpr int kScorePoints = 600, kExplainPoints = 1500;
-
-class BlockCost final : public ceres::CostFunction {
- public:
-  explicit BlockCost(const BrickBlock& block) : block_(block) {
-    set_num_residuals(block.residuals());
-    mutable_parameter_block_sizes()->push_back(4);
-  }
-  bool Evaluate(double const* const* x, double* residuals, double** jacobians) const override {
-    block_.evaluate(x[0], residuals, jacobians != nullptr ? jacobians[0] : nullptr);
-    return true;
-  }
-
- private:
-  const BrickBlock& block_;
-};
 
 /// E_dir = (1 - (R e_x) . l)^2, weighted.
 class DirectionCost final : public ceres::SizedCostFunction<1, 4> {
@@ -183,7 +169,7 @@ UprightMotion RoughPoseEstimator::Search::solve(const UprightMotion& start) cons
       {pivot, pivot, Eigen::Vector3d::UnitZ(), config.ground_weight * block.weightSum()});
   UprightMotion motion = start;
   ceres::Problem problem;
-  problem.AddResidualBlock(new BlockCost(held), nullptr, motion.data());
+  problem.AddResidualBlock(newBlockCost(held), nullptr, motion.data());
   if (line)
     problem.AddResidualBlock(
         new DirectionCost(X_level_target.linear().col(0), *line, config.direction_weight), nullptr,

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 #include <Eigen/Eigenvalues>
 
 #include "common/core/check.h"
 #include "common/core/units.h"
 #include "robot/perception/cloud/leaf_table.h"
+#include "robot/perception/cloud/plane_search.h"
 
 namespace kiln {
 namespace {
@@ -106,11 +106,6 @@ void estimateNormals(std::vector<SurfacePoint>& surface, double leaf_m, double r
 
 namespace {
 
-struct Plane {
-  Eigen::Vector3d n = Eigen::Vector3d::UnitZ();
-  double d_m = 0.0;
-};
-
 std::vector<Eigen::Vector3d> lowOnes(const std::vector<SurfacePoint>& leaves,
                                      const SweepPreparation& config) {
   std::vector<Eigen::Vector3d> low;
@@ -118,31 +113,6 @@ std::vector<Eigen::Vector3d> lowOnes(const std::vector<SurfacePoint>& leaves,
     if (std::abs(leaf.p.z()) < config.ground_height_m + config.ground_tolerance_m)
       low.push_back(leaf.p.cast<double>());
   return low;
-}
-
-Plane mostSupported(const std::vector<Eigen::Vector3d>& low, const SweepPreparation& config) {
-  const std::size_t stride = std::max<std::size_t>(1, low.size() / kTrialPoints);
-  std::mt19937 random(1);
-  std::uniform_int_distribution<std::size_t> pick(0, low.size() - 1);
-  Plane best;
-  int best_votes = -1;
-  for (int trial = 0; trial < kTrials; ++trial) {
-    const Eigen::Vector3d &a = low[pick(random)], &b = low[pick(random)], &c = low[pick(random)];
-    Eigen::Vector3d n = (b - a).cross(c - a);
-    if (n.norm() < 1e-3) continue;  // nearly on a line
-    n.normalize();
-    if (n.z() < 0.0) n = -n;
-    if (n.z() < std::cos(config.ground_slope_deg * kDeg)) continue;
-    const double d = n.dot(a);
-    int votes = 0;
-    for (std::size_t i = 0; i < low.size(); i += stride)
-      if (std::abs(n.dot(low[i]) - d) < config.ground_tolerance_m) ++votes;
-    if (votes > best_votes) {
-      best_votes = votes;
-      best = {n, d};
-    }
-  }
-  return best;
 }
 
 }  // namespace
@@ -154,7 +124,12 @@ Result<GroundFit> fitGround(const std::vector<SurfacePoint>& leaves,
     return makeError(ErrorCode::Degenerate,
                      "no ground around the target: {} leaves near z = 0 of the base, {} needed",
                      low.size(), config.min_ground_points);
-  Plane plane = mostSupported(low, config);
+  PlaneSearch search;
+  search.within_rad = config.ground_slope_deg * kDeg;
+  search.tolerance_m = config.ground_tolerance_m;
+  search.trials = kTrials;
+  search.most_voters = kTrialPoints;
+  SupportedPlane plane = searchPlane(low, search).value_or(SupportedPlane{});
   GroundFit fit;
   for (int k = 0; k < kRefinements; ++k) {
     Eigen::Vector3d mean = Eigen::Vector3d::Zero();

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 #include <vector>
 
 #include <Eigen/Eigenvalues>
 
 #include "common/core/units.h"
+#include "robot/perception/cloud/plane_search.h"
 
 namespace kiln {
 namespace {
@@ -89,21 +89,18 @@ Result<BoardPlane> findBoard(std::span<const StillScan> scans, const LidarCalibr
                      prior.where.p.head<2>().norm());
   };
   if (points.size() < kLeastPoints) return missing();
-  std::mt19937 random(7);
-  std::uniform_int_distribution<std::size_t> any(0, points.size() - 1);
-  std::vector<Eigen::Vector3d> best;
-  for (int i = 0; i < kTries; ++i) {
-    const Eigen::Vector3d &a = points[any(random)], &b = points[any(random)],
-                          &c = points[any(random)];
-    Eigen::Vector3d normal = (b - a).cross(c - a);
-    if (normal.norm() < 0.01) continue;  // too near to each other to make a plane
-    normal.normalize();
-    if (std::abs(normal.dot(prior.where.normal)) < std::cos(prior.within_deg * kDeg) ||
-        std::abs(normal.dot(a - prior.where.p)) > prior.within_m)
-      continue;
-    auto inliers = on({a, normal, 0.0, 0}, points);
-    if (inliers.size() > best.size()) best = std::move(inliers);
-  }
+  PlaneSearch search;
+  search.towards = prior.where.normal;
+  search.within_rad = prior.within_deg * kDeg;
+  search.near = prior.where.p;
+  search.near_m = prior.within_m;
+  search.tolerance_m = kThick_m;
+  search.least_m2 = 0.01;
+  search.trials = kTries;
+  search.seed = 7;
+  const auto found = searchPlane(points, search);
+  if (!found) return missing();
+  std::vector<Eigen::Vector3d> best = on({found->d_m * found->n, found->n, 0.0, 0}, points);
   const auto share = static_cast<std::size_t>(kLeastShare * static_cast<double>(points.size()));
   if (best.size() < std::max(kLeastPoints, share)) return missing();
   BoardPlane out = fit(best, prior.where.normal);

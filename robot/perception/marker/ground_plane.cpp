@@ -2,18 +2,17 @@
 
 #include <cmath>
 #include <limits>
-#include <random>
 #include <vector>
 
 #include <Eigen/Dense>
 
 #include "common/core/units.h"
+#include "robot/perception/cloud/plane_search.h"
 
 namespace kiln {
 namespace {
 
-constexpr int kTrials = 150;
-constexpr double kLeastTriangle_m2 = 0.1;  // smaller ones say nothing about a tilt
+constexpr double kLeast_m2 = 0.2;  // smaller triangles say nothing about a tilt
 
 using Rows = std::vector<Eigen::Vector3d>;
 
@@ -26,25 +25,8 @@ Rows around(const PointCloud& scan, const Eigen::Vector2d& p, double radius_m) {
   return out;
 }
 
-/// z = c . (1, x, y) through three points; false if they are nearly on a line or the plane is too
-/// steep.
-bool through(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
-             double max_tangent, Eigen::Vector3d& plane) {
-  const Eigen::Vector3d n = (b - a).cross(c - a);
-  if (std::abs(n.z()) < 2.0 * kLeastTriangle_m2) return false;
-  const Eigen::Vector2d slope = -n.head<2>() / n.z();
-  plane << a.z() - slope.dot(a.head<2>()), slope;
-  return slope.norm() <= max_tangent;
-}
-
 double offPlane(const Eigen::Vector3d& p, const Eigen::Vector3d& plane) {
   return std::abs(p.z() - plane.dot(Eigen::Vector3d(1.0, p.x(), p.y())));
-}
-
-std::size_t supporters(const Rows& points, const Eigen::Vector3d& plane, double tolerance_m) {
-  std::size_t n = 0;
-  for (const Eigen::Vector3d& p : points) n += offPlane(p, plane) <= tolerance_m ? 1 : 0;
-  return n;
 }
 
 }  // namespace
@@ -81,25 +63,18 @@ Result<GroundPlane> fitGroundPlane(const PointCloud& scan_base, const Eigen::Vec
     return makeError(ErrorCode::Degenerate,
                      "ground at ({:.1f}, {:.1f}) m: {} LiDAR points within {:.1f} m, {} are needed",
                      p_base.x(), p_base.y(), points.size(), config.radius_m, config.min_points);
-  std::mt19937 random(1);  // the same scan, the same plane
-  std::uniform_int_distribution<std::size_t> any(0, points.size() - 1);
-  Eigen::Vector3d best = Eigen::Vector3d::Zero(), plane;
-  std::size_t most = 0;
-  for (int trial = 0; trial < kTrials; ++trial) {
-    const std::size_t i = any(random), j = any(random), k = any(random);
-    if (!through(points[i], points[j], points[k], std::tan(config.max_slope_deg * kDeg), plane))
-      continue;
-    const std::size_t n = supporters(points, plane, config.tolerance_m);
-    if (n > most) {
-      most = n;
-      best = plane;
-    }
-  }
-  if (static_cast<double>(most) < config.min_share * static_cast<double>(points.size()))
+  PlaneSearch search;
+  search.within_rad = config.max_slope_deg * kDeg;
+  search.tolerance_m = config.tolerance_m;
+  search.least_m2 = kLeast_m2;
+  const SupportedPlane plane = searchPlane(points, search).value_or(SupportedPlane{});
+  if (static_cast<double>(plane.votes) < config.min_share * static_cast<double>(points.size()))
     return makeError(ErrorCode::Degenerate,
                      "ground at ({:.1f}, {:.1f}) m: {} of {} LiDAR points lie on one plane, {:.0f} "
                      "% are needed",
-                     p_base.x(), p_base.y(), most, points.size(), 100.0 * config.min_share);
+                     p_base.x(), p_base.y(), plane.votes, points.size(), 100.0 * config.min_share);
+  Eigen::Vector3d best(plane.d_m, -plane.n.x(), -plane.n.y());
+  best /= plane.n.z();
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   for (int round = 0; round < 2; ++round) {
     information.setZero();

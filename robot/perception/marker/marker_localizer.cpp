@@ -8,11 +8,13 @@
 #include <fmt/format.h>
 
 #include "common/core/units.h"
+#include "robot/perception/marker/marker_coverage.h"
 #include "robot/perception/marker/marker_shape.h"
 
 namespace kiln {
 namespace {
 
+using marker::Coverage;
 using marker::GroundCluster;
 using marker::OutlineFit;
 using marker::PictureFrame;
@@ -48,83 +50,7 @@ bool usable(const MarkerViewpoint& from) {
          from.ground.covariance.allFinite();
 }
 
-/// How much of the marker is seen, and how much is seen beside it.
-struct Coverage {
-  double leg_x = 0.0, leg_y = 0.0, whole = 0.0, outside = 0.0;
-  bool end_x = false, end_y = false, corner = false;
-};
-
-Coverage coverageOf(const std::vector<Eigen::Vector2d>& p_wall, double margin_m) {
-  std::array<int, marker::kCells> hits{};
-  std::size_t outside = 0;
-  for (const Eigen::Vector2d& p : p_wall) {
-    const int cell = marker::cellOf(p);
-    if (cell >= 0) ++hits[static_cast<std::size_t>(cell)];
-    if (marker::distanceOutside(p) > margin_m) ++outside;
-  }
-  const auto filled = [&](int from, int to) {
-    int n = 0;
-    for (int i = from; i < to; ++i) n += hits[static_cast<std::size_t>(i)] >= 2 ? 1 : 0;
-    return n;
-  };
-  constexpr int kCorner = marker::kCells / 2;  // the middle cells
-  Coverage out;
-  out.leg_x = filled(0, kCorner) / static_cast<double>(kCorner);
-  out.leg_y = filled(kCorner, marker::kCells) / static_cast<double>(marker::kCells - kCorner);
-  out.whole = filled(0, marker::kCells) / static_cast<double>(marker::kCells);
-  out.end_x = filled(0, 2) > 0;
-  out.end_y = filled(marker::kCells - 2, marker::kCells) > 0;
-  out.corner = filled(kCorner - 1, kCorner + 1) > 0;
-  out.outside =
-      static_cast<double>(outside) / static_cast<double>(std::max<std::size_t>(1, p_wall.size()));
-  return out;
-}
-
 }  // namespace
-
-std::string_view toString(MarkerRefusal refusal) {
-  switch (refusal) {
-    case MarkerRefusal::NothingSeen:
-      return "nothing seen";
-    case MarkerRefusal::TooSmall:
-      return "too small";
-    case MarkerRefusal::OneLeg:
-      return "one leg only";
-    case MarkerRefusal::WrongSides:
-      return "wrong sides";
-    case MarkerRefusal::HalfHidden:
-      return "half hidden";
-    case MarkerRefusal::NoFit:
-      return "no fit";
-    case MarkerRefusal::Uncertain:
-      return "uncertain";
-  }
-  return "unknown";
-}
-
-void MarkerLocalizer::Config::visit(ConfigArchive& a) {
-  a.field("hfov_deg", hfov_deg, "deg", 10, 150, "head camera's horizontal field of view");
-  a.field("window_s", window_s, "s", 0.1, 120, "pictures are gathered over this time");
-  a.field("max_pictures", max_pictures, "", 1, 1000, "kept at most");
-  a.field("max_outline", max_outline, "", 50, 10000, "points of the outline kept of a picture");
-  a.field("max_range_m", max_range_m, "m", 2, 50, "farther points of the ground are left out");
-  a.field("gap_m", gap_m, "m", 0.05, 2, "between points of one cluster on the ground");
-  a.field("cell_m", cell_m, "m", 0.01, 0.5, "of the grid that clusters");
-  a.field("min_hits", min_hits, "", 1, 100, "points that make a cell count, from 3 pictures on");
-  a.field("side_tolerance", side_tolerance, "", 0, 0.5, "share by which a side may be off");
-  a.field("side_tolerance_m", side_tolerance_m, "m", 0, 2, "and beside that share");
-  a.field("refine", refine, "fit the outline; false: take the smallest rectangle");
-  a.field("camera_sigma_deg", camera_sigma_deg, "deg", 0.01, 5, "mounting of the head camera");
-  a.field("camera_sigma_m", camera_sigma_m, "m", 0, 0.1, "mounting of the head camera");
-  a.field("odometry_drift", odometry_drift, "", 0, 0.2, "share of the way driven, one sigma");
-  a.field("min_coverage", min_coverage, "", 0, 1, "share of each leg that must be seen");
-  a.field("max_outside", max_outside, "", 0, 1, "share of the points that may lie off the marker");
-  a.field("min_agreeing", min_agreeing, "", 0, 1, "share of the outline that must fit");
-  a.field("max_sigma_m", max_sigma_m, "m", 0.01, 5, "of the position; more is refused");
-  a.field("max_sigma_deg", max_sigma_deg, "deg", 0.1, 45, "of the direction; more is refused");
-  a.field("paper", paper, "only the winner of each picture and the largest cluster");
-  a.section("fit", fit, "the outline in the pictures");
-}
 
 struct MarkerLocalizer::Impl {
   explicit Impl(const Config& c)
@@ -286,27 +212,14 @@ Eigen::Matrix3d MarkerLocalizer::Impl::roughCovariance(const Pose2& X_odom_wall)
 }
 
 std::optional<RefusedMarker> MarkerLocalizer::Impl::refuseCoverage(const Coverage& c) const {
-  RefusedMarker out{MarkerRefusal::HalfHidden, {}, {}};
-  if (!c.corner)
-    out.text = "half hidden: the corner of the L is not seen";
-  else if (!c.end_x || !c.end_y)
-    out.text =
-        fmt::format("half hidden: the end of the leg along {} is not seen", c.end_x ? "Y" : "X");
-  else if (std::min(c.leg_x, c.leg_y) < config.min_coverage)
-    out.text = fmt::format(
-        "half hidden: {:.0f} % and {:.0f} % of the legs are seen, {:.0f} % are "
-        "needed",
-        100.0 * c.leg_x, 100.0 * c.leg_y, 100.0 * config.min_coverage);
-  else if (c.outside > config.max_outside) {
-    out.why = MarkerRefusal::NoFit;
-    out.text = fmt::format(
-        "{:.0f} % of what has the marker's colours lies off its outline, {:.0f} "
-        "% may",
-        100.0 * c.outside, 100.0 * config.max_outside);
-  } else {
-    return std::nullopt;
-  }
-  return out;
+  if (const std::string hidden = c.hidden(config.min_coverage); !hidden.empty())
+    return RefusedMarker{MarkerRefusal::HalfHidden, hidden, {}};
+  if (c.outside <= config.max_outside) return std::nullopt;
+  return RefusedMarker{MarkerRefusal::NoFit,
+                       fmt::format("{:.0f} % of what has the marker's colours lies off its "
+                                   "outline, {:.0f} % may",
+                                   100.0 * c.outside, 100.0 * config.max_outside),
+                       {}};
 }
 
 std::optional<RefusedMarker> MarkerLocalizer::Impl::judge(const Scene& scene,
@@ -341,7 +254,7 @@ std::optional<RefusedMarker> MarkerLocalizer::Impl::judge(const Scene& scene,
       p_wall.emplace_back((X_wall_odom * Eigen::Vector3d(p.x(), p.y(), 0.0)).head<2>());
     }
     constexpr double kMargin_m = 0.12;
-    const Coverage coverage = coverageOf(p_wall, kMargin_m);
+    const Coverage coverage = marker::coverageOf(p_wall, kMargin_m);
     estimate.coverage = coverage.whole;
     estimate.outside = coverage.outside;
     if (auto refused = refuseCoverage(coverage)) {

@@ -1,7 +1,6 @@
 #include "tests/gui/by_hand/hand.h"
 
 #include <QAbstractButton>
-#include <QElapsedTimer>
 #include <QTest>
 
 #include "tests/gui/support/text_meter.h"
@@ -9,20 +8,14 @@
 namespace kiln::gui {
 
 namespace {
-constexpr int kLook_ms = 20;   // between two looks
+// The rhythm of a hand, part of what is measured: nothing is awaited in it.
 constexpr int kMove_ms = 250;  // of the pointer to where it is wanted
 constexpr int kMoveSteps = 10;
 constexpr int kTap_ms = 90;
 }  // namespace
 
 bool Hand::waitFor(double seconds, const std::function<bool()>& seen) {
-  QElapsedTimer timer;
-  timer.start();
-  do {
-    if (seen()) return true;
-    QTest::qWait(kLook_ms);
-  } while (timer.elapsed() < 1000 * seconds);
-  return seen();
+  return QTest::qWaitFor(seen, static_cast<int>(1000 * seconds));
 }
 
 void Hand::look(double seconds) { QTest::qWait(static_cast<int>(1000 * seconds)); }

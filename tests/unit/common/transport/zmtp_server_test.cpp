@@ -116,6 +116,24 @@ TEST(ZmtpServer, ManyConnectionsDisplaceEachOtherAndNobodyWhoIsKnown) {
   EXPECT_TRUE(answers(known, "and I"));
 }
 
+TEST(ZmtpServer, WhoseHandshakeWaitsToBeReadIsNotDisplacedByACrowdThatSaysNothing) {
+  const std::string address = "ipc:///tmp/kiln-zmtp-" + std::to_string(::getpid());
+  ZmtpServer::Limits limits;
+  limits.max_peers = 8;
+  auto server = ZmtpServer::bind(address, ZmtpKind::Router, limits);
+  ASSERT_TRUE(server.has_value()) << server.error();
+  RawZmtp good(address);
+  std::atomic<int> state{0};
+  std::jthread speaker([&] { state = good.shakeHands("DEALER") ? 1 : -1; });
+  std::this_thread::sleep_for(kMoment);
+  std::vector<RawZmtp> crowd;
+  for (int i = 0; i < 60; ++i) crowd.emplace_back(address);
+  for (const auto start = monotonicNow();
+       state == 0 && secondsBetween(start, monotonicNow()) < toSeconds(kSoon);)
+    (*server)->serve();
+  EXPECT_EQ(state, 1);
+}
+
 TEST(ZmtpServer, WithoutDescriptorsItTurnsCallersAwayAndLives) {
   Echo echo;
   RawZmtp good(echo.address);

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "common/core/units.h"
+#include "tests/support/quantile.h"
 #include "tests/unit/robot/localization/synthetic_map.h"
 
 namespace kiln {
@@ -28,10 +29,7 @@ double planar(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
 double yawBetween(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
   return std::abs(projectToGround(a.inverse() * b).yaw_rad);
 }
-double quantile(std::vector<double> values, double share) {
-  std::sort(values.begin(), values.end());
-  return values.at(static_cast<std::size_t>(share * static_cast<double>(values.size() - 1)));
-}
+using test::quantile;
 
 class ScanMatcherTest : public ::testing::Test {
  protected:

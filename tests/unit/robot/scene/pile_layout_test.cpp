@@ -8,7 +8,7 @@ namespace kiln {
 namespace {
 
 TEST(PileLayout, HoldsTheBricksOfTheTask) {
-  const auto slots = pileSlots(arenaPile());
+  const auto slots = arenaPile().slots();
   ASSERT_EQ(slots.size(), 45U);
   std::array<int, kBrickKinds> count{};
   for (const PileSlot& slot : slots) ++count[static_cast<std::size_t>(slot.kind)];
@@ -18,9 +18,9 @@ TEST(PileLayout, HoldsTheBricksOfTheTask) {
 
 TEST(PileLayout, LineOneIsAsLongAsThePageSaysAndLineTwoStandsBehindIt) {
   // 4 x 0.3 + 2 x 0.6 + 1.2 and six gaps of 0.1; 2 x 1.8 and one gap.
-  EXPECT_NEAR(pileLength(arenaPile()), 4.2, 1e-12);
+  EXPECT_NEAR(arenaPile().length(), 4.2, 1e-12);
   double line1 = 0.0, line2 = 0.0;
-  for (const PileSlot& slot : pileSlots(arenaPile())) {
+  for (const PileSlot& slot : arenaPile().slots()) {
     const Eigen::Vector3d& p = slot.X_pile_brick.translation();
     const double end = p.x() + brickShape(slot.kind).length_m / 2.0;
     (p.y() > 1.0 ? line2 : line1) = std::max(p.y() > 1.0 ? line2 : line1, end);
@@ -31,7 +31,7 @@ TEST(PileLayout, LineOneIsAsLongAsThePageSaysAndLineTwoStandsBehindIt) {
 }
 
 TEST(PileLayout, NeighboursStandAGapApartAndLayersOnEachOther) {
-  const auto slots = pileSlots(labPile());
+  const auto slots = labPile().slots();
   ASSERT_EQ(slots.size(), 11U);
   EXPECT_NEAR(slots[0].X_pile_brick.translation().z(), 0.1, 1e-12);
   EXPECT_NEAR(slots[3].X_pile_brick.translation().z(), 0.7, 1e-12);

@@ -16,7 +16,7 @@ ArenaMap arena(const std::string& file) {
 TEST(WallSiteMap, TheShippedSitesAreWhatTheScenarioSays) {
   const auto site = loadWallSite(arena("arena_wall.yaml"));
   ASSERT_TRUE(site.has_value()) << site.error();
-  EXPECT_NEAR(site->pileLength(), 4.2, 1e-9);
+  EXPECT_NEAR(site->layout().length(), 4.2, 1e-9);
   const Pose2 X_pile_wall = inverse(site->pile.pose()) * site->marker.pose();
   EXPECT_GT(std::hypot(X_pile_wall.x_m - 2.1, X_pile_wall.y_m), 12.0);
   EXPECT_LT(std::hypot(X_pile_wall.x_m - 2.1, X_pile_wall.y_m), 20.0);
@@ -25,7 +25,20 @@ TEST(WallSiteMap, TheShippedSitesAreWhatTheScenarioSays) {
   int bricks = 0;
   for (const BrickStackConfig& stack : lab->stacks) bricks += stack.bricks;
   EXPECT_EQ(bricks, 11);
-  EXPECT_NEAR(lab->pileLength(), 2.3, 1e-9);
+  EXPECT_NEAR(lab->layout().length(), 2.3, 1e-9);
+}
+
+/// Perception is tried on the layouts in the code, the world stands as the files say.
+TEST(WallSiteMap, TheShippedSitesAreThePilesThatPerceptionIsTriedOn) {
+  for (const auto& [file, nominal] :
+       {std::pair{"arena_wall.yaml", arenaPile()}, std::pair{"arena_wall_lab.yaml", labPile()}}) {
+    const auto shipped = loadWallSite(arena(file))->layout().slots(), slots = nominal.slots();
+    ASSERT_EQ(shipped.size(), slots.size()) << file;
+    for (std::size_t i = 0; i < slots.size(); ++i) {
+      EXPECT_EQ(shipped[i].kind, slots[i].kind);
+      EXPECT_TRUE(shipped[i].X_pile_brick.isApprox(slots[i].X_pile_brick)) << file << i;
+    }
+  }
 }
 
 TEST(WallSiteMap, FixturesAreTheStacksWhereTheyAreBelieved) {

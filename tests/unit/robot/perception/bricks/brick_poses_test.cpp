@@ -7,14 +7,12 @@
 #include "common/geom/pose.h"
 #include "robot/evaluation/bricks/brick_trial.h"
 #include "robot/perception/bricks/brick_perception.h"
+#include "tests/support/quantile.h"
 
 namespace kiln {
 namespace {
 
-double quantile(std::vector<double> values, double q) {
-  std::sort(values.begin(), values.end());
-  return values.at(static_cast<std::size_t>(q * static_cast<double>(values.size() - 1)));
-}
+using test::quantile;
 
 const BrickEstimate& estimateOf(const BrickPoses& poses, int id) {
   return *std::find_if(poses.bricks.begin(), poses.bricks.end(),

@@ -7,24 +7,13 @@
 #include "common/geom/pose.h"
 #include "robot/perception/bricks/point_tree.h"
 #include "robot/scene/pile_layout.h"
+#include "tests/support/quantile.h"
 #include "tests/unit/robot/perception/bricks/render_cloud.h"
 
 namespace kiln {
 namespace {
 
-double quantile(std::vector<double> values, double q) {
-  std::sort(values.begin(), values.end());
-  return values.at(static_cast<std::size_t>(q * static_cast<double>(values.size() - 1)));
-}
-
-ModelWorld pileSeenFromAhead() {
-  ModelWorld world;
-  int id = 0;
-  for (const PileSlot& slot : pileSlots(arenaPile()))
-    world.bricks.push_back({id++, slot.kind, slot.X_pile_brick});
-  world.sensors = {{1.9, -2.8, 1.55}};
-  return world;
-}
+using test::quantile;
 
 std::vector<double> distances(const std::vector<ModelPoint>& from,
                               const std::vector<ModelPoint>& to) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/geom/pose.h"
+#include "robot/scene/pile_layout.h"
 #include "robot/scene/raycaster.h"
 
 namespace kiln {
@@ -70,6 +71,15 @@ std::vector<ModelPoint> renderCloud(const ModelWorld& world, int pixels) {
       }
     }
   return out;
+}
+
+ModelWorld pileSeenFromAhead() {
+  ModelWorld world;
+  int id = 0;
+  for (const PileSlot& slot : arenaPile().slots())
+    world.bricks.push_back({id++, slot.kind, slot.X_pile_brick});
+  world.sensors = {{1.9, -2.8, 1.55}};
+  return world;
 }
 
 }  // namespace kiln

@@ -11,4 +11,7 @@ namespace kiln {
 /// opening angle just holds them. By Embree rays instead of OpenGL.
 [[nodiscard]] std::vector<ModelPoint> renderCloud(const ModelWorld& world, int pixels);
 
+/// The arena's pile from 2.8 m before its first line, in the pile's frame.
+[[nodiscard]] ModelWorld pileSeenFromAhead();
+
 }  // namespace kiln

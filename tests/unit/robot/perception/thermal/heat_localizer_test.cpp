@@ -6,16 +6,14 @@
 
 #include "robot/perception/thermal/heat_detector.h"
 #include "tests/support/heat_sweep.h"
+#include "tests/support/quantile.h"
 
 namespace kiln {
 namespace {
 
 using testing::HeatSweep;
 
-double quantile(std::vector<double> values, double share) {
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
-}
+using test::quantile;
 
 TEST(HeatLocalizer, MeetsItsGoalsOverManySeeds) {
   std::vector<double> range, lateral, baseline;
