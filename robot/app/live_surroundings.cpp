@@ -12,7 +12,8 @@ LiveSurroundings::LiveSurroundings(const Config& config)
 
 void LiveSurroundings::add(const Scan& scan) {
   memory_.add(scan.obstacles, scan.X_odom_base);
-  window_.add({scan.scan_base, scan.X_map_base, scan.obstacles.X_base_lidar});
+  window_.add({scan.scan_base, scan.X_map_base, scan.obstacles.X_base_lidar, scan.lidar_track,
+               scan.X_odom_base});
 }
 
 void LiveSurroundings::clear() {

@@ -23,6 +23,7 @@ class LiveSurroundings final : public Surroundings {
     ObstacleScan obstacles;  ///< made by ObstacleMemory::observe on the pool
     Pose2 X_odom_base;
     Eigen::Isometry3d X_map_base;
+    std::shared_ptr<const PoseTrack> lidar_track{};  ///< over the scan
   };
   void add(const Scan& scan);
   /// Once a tick.

@@ -3,44 +3,12 @@
 #include <utility>
 
 #include "common/core/clock.h"
-#include "robot/perception/cloud/range_bias.h"
-#include "robot/perception/cloud/undistort.h"
+#include "robot/app/scan_preparation.h"
 
 namespace kiln {
 namespace {
 
 constexpr double kHalfScan_s = 0.05;
-constexpr int kTrackSamples = 26;  // every 4 ms of a revolution at 10 Hz: joints come each 8 ms
-
-/// When the scan's last point was measured.
-Stamp endOf(const PointCloud& scan) {
-  return scan.stamp + fromSeconds(scan.time_offset_s.empty() ? 0.0 : scan.time_offset_s.back());
-}
-
-/// Joint angles over the scan, and the LiDAR's pose in the base frame of the scan's first point.
-struct ScanMotion {
-  ArmTrack arm;
-  PoseTrack X_base_lidar;
-};
-
-ScanMotion motionDuring(const PointCloud& scan, const RobotGeometry& robot,
-                        const StateHistory& history) {
-  ScanMotion motion;
-  const auto first = history.at(scan.stamp);
-  if (!first) return motion;
-  const Duration length = endOf(scan) - scan.stamp;
-  const Pose2 X_base0_odom = inverse(first->X_odom_base);
-  const Eigen::Isometry3d X_flange_lidar = robot.X_flange_lidar.pose();
-  for (int i = 0; i < kTrackSamples; ++i) {
-    const Stamp t = scan.stamp + length * i / (kTrackSamples - 1);
-    const auto sample = history.at(t);
-    if (!sample) break;
-    motion.arm.push(t, sample->q);
-    motion.X_base_lidar.push(t, toIsometry(X_base0_odom * sample->X_odom_base) *
-                                    robot.X_base_flange(sample->q) * X_flange_lidar);
-  }
-  return motion;
-}
 
 }  // namespace
 
@@ -68,7 +36,7 @@ void PerceptionJobs::onScan(PointCloudPtr scan) { scans_.put(std::move(scan)); }
 void PerceptionJobs::dispatch(Stamp now, Localizer& localizer, bool moving) {
   const auto scan = scans_.takeFresh();
   if (!scan) return;
-  last_scan_ = endOf(**scan);
+  last_scan_ = scanEnd(**scan);
   const bool searching = localizer.relocateTries() > 0;  // over the arena, a place a scan
   const double period_s =
       moving || searching ? config_.moving_fix_period_s : config_.resting_fix_period_s;
@@ -88,18 +56,13 @@ void PerceptionJobs::dispatch(Stamp now, Localizer& localizer, bool moving) {
 PerceptionJobs::ScanResult PerceptionJobs::processScan(
     const PointCloud& scan, const std::optional<AlignmentPrior>& prior) const {
   ScanResult result;
-  result.end = endOf(scan);
+  result.end = scanEnd(scan);
   result.prior = prior.value_or(AlignmentPrior{});
-  const ScanMotion motion = motionDuring(scan, robot_, history_);
-  auto filtered = self_filter_.filter(scan, motion.arm);
-  correctRanges(filtered.cloud, robot_.lidar_range_bias_m);
-  if (motion.X_base_lidar.empty()) {  // no robot attached: show the scan as it came
-    result.cloud = std::make_shared<PointCloud>(std::move(filtered.cloud));
-    return result;
-  }
-  result.cloud =
-      std::make_shared<PointCloud>(undistort(filtered.cloud, motion.X_base_lidar, "base"));
-  const Eigen::Isometry3d X_base_lidar = motion.X_base_lidar.at(scan.stamp);
+  PreparedScan prepared = prepareScan(scan, robot_, history_, self_filter_);
+  result.cloud = std::move(prepared.cloud);
+  result.lidar_track = std::move(prepared.X_base_lidar);
+  if (!result.lidar_track) return result;
+  const Eigen::Isometry3d X_base_lidar = result.lidar_track->at(scan.stamp);
   result.obstacles = ObstacleMemory::observe(obstacles_, *result.cloud, X_base_lidar);
   if (prior) {
     const SteadyClock wall;

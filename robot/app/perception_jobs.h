@@ -34,6 +34,8 @@ class PerceptionJobs {
     AlignmentPrior prior;
     std::optional<Result<ScanMatch>> match;  ///< nullopt: not tried this time
     double locate_s = 0.0;                   ///< wall time of it, in lockstep too
+    /// X_base_lidar over the scan; nullptr when the robot's motion during it is not known.
+    std::shared_ptr<const PoseTrack> lidar_track;
     /// Obstacles in the scan; nullopt when the robot's motion during the scan is not known.
     std::optional<ObstacleScan> obstacles;
   };

@@ -62,7 +62,8 @@ void SensorIntake::place(PerceptionJobs::ScanResult& result, const TrackedPose& 
   const Eigen::Isometry3d X_plane_base =
       toIsometry(tracked.X_map_base).inverse() * tracked.X_map_base_3d;
   surroundings_.add({result.cloud, std::move(*result.obstacles), sample->X_odom_base,
-                     toIsometry(tracked.X_map_odom * sample->X_odom_base) * X_plane_base});
+                     toIsometry(tracked.X_map_odom * sample->X_odom_base) * X_plane_base,
+                     std::move(result.lidar_track)});
 }
 
 std::optional<Eigen::Isometry3d> SensorIntake::flangeAt(Stamp stamp,

@@ -4,6 +4,7 @@
 #include "robot/evaluation/bricks/brick_trial.h"
 #include "robot/evaluation/bricks/processor_clock.h"
 #include "robot/evaluation/evaluation.h"
+#include "robot/evaluation/pile_evaluation.h"
 
 namespace kiln {
 namespace {
@@ -186,6 +187,7 @@ class Sweep {
 }  // namespace
 
 Result<EvaluationResult> evaluateBricks(const SweepOptions& options) {
+  if (!options.world.empty()) return evaluatePiles(options);
   Sweep sweep;
   static constexpr TrialKind kKinds[] = {TrialKind::Pile, TrialKind::Wall, TrialKind::Lab};
   for (int seed = options.first_seed; seed <= options.last_seed; ++seed) {

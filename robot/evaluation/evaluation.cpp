@@ -7,6 +7,10 @@ namespace {
 
 const EvaluationOption kWorld{"--world", "world file (default: the evaluation's own)",
                               &SweepOptions::world};
+const EvaluationOption kPileWorld{
+    "--world",
+    "wall_lab: the pile of that world instead, swept by its robot with its own sensors",
+    &SweepOptions::world};
 const EvaluationOption kLocalization{"--localization", "surfel_map, walls or odometry",
                                      &SweepOptions::localization};
 const EvaluationOption kCalibrate{
@@ -83,7 +87,7 @@ const std::vector<Evaluation>& evaluations() {
        "disturbed, against their truth; the paper's own method on the same sweeps",
        evaluateBricks,
        {1, 100},
-       {kCalibrate}},
+       {kPileWorld, kCalibrate}},
       {"calibrate",
        "finds the mounting of LiDAR and thermal camera by moving the arm; --out FILE is for "
        "kiln-robotd --calibration",

@@ -25,6 +25,10 @@ class ArmMotion {
  public:
   virtual ~ArmMotion() = default;
   virtual void startJoints(const Vector6d& q_goal, Stamp now) = 0;
+  /// Straight in joint space from where the arm rests, so slowly that the motion lasts
+  /// `duration_s`, for a sensor that looks around meanwhile. There is no way around: in_collision
+  /// where the straight one is not free; and no second try: an interruption ends it (tracking).
+  virtual void startTimed(const Vector6d& q_goal, double duration_s, Stamp now) = 0;
   virtual void startPose(const Eigen::Isometry3d& X_base_flange, Stamp now) = 0;
   virtual void startCartesian(std::vector<Eigen::Isometry3d> X_base_flange, bool blend,
                               Stamp now) = 0;

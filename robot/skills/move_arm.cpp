@@ -34,27 +34,13 @@ struct LineGoal {
   std::vector<Eigen::Isometry3d> X_base_flange;
   bool blend = false;
 };
-using Goal = std::variant<Vector6d, PoseGoal, LineGoal>;
+struct TimedGoal {
+  Vector6d q;
+  double duration_s = 0.0;
+};
+using Goal = std::variant<Vector6d, PoseGoal, LineGoal, TimedGoal>;
 
 }  // namespace
-
-void MoveArm::Config::visit(ConfigArchive& a) {
-  a.field("speed_scale", speed_scale, "", 0.01, 1, "of the joint speed limits");
-  a.field("cartesian_speed_mps", cartesian_speed_mps, "m/s", 0.005, 1.5, "along straight lines");
-  a.field("cartesian_accel_mps2", cartesian_accel_mps2, "m/s^2", 0.05, 5, "along straight lines");
-  a.field("guard_force_n", guard_force_n, "N", 0, 150, "contact force that stops; 0 = unguarded");
-  a.field("clearance_m", clearance_m, "m", 0, 0.3, "to base, tanks, scene and itself");
-  a.field("joint_accel_radps2", joint_accel_radps2, "rad/s^2", 0.1, 20, "each joint");
-  a.field("jerk_time_s", jerk_time_s, "s", 0.02, 1, "ramp of the acceleration");
-  a.field("goal_tolerance_deg", goal_tolerance_deg, "deg", 0.05, 10, "measured joints at the end");
-  a.field("settle_timeout_s", settle_timeout_s, "s", 0.2, 20, "to rest before and after");
-  a.field("planning_slice", planning_slice, "", 1, 10000, "search iterations in one poll");
-  a.field("max_resumes", max_resumes, "", 0, 100, "of one move, when nothing was touched");
-  a.field("max_gap_s", max_gap_s, "s", 0.06, 5, "between two polls; longer interrupts the move");
-  a.section("planner", planner, "search for a way around obstacles");
-  a.section("cartesian", cartesian, "straight lines");
-  a.section("watch", watch, "live cloud where the arm would pass");
-}
 
 struct MoveArm::Impl {
   enum class Stage { Idle, Settling, Planning, Moving };
@@ -95,7 +81,8 @@ struct MoveArm::Impl {
   SkillStatus interrupted(const ArmTracking& tracking, std::string why, Stamp now) {
     const bool touched =
         config.guard_force_n > 0.0 && tracking.contact_force_n > kTouched * config.guard_force_n;
-    if (touched || resumes >= config.max_resumes) {
+    const bool once = std::holds_alternative<TimedGoal>(goal);
+    if (touched || once || resumes >= config.max_resumes) {
       if (resumes > 0) why += fmt::format(" (after {} new tries)", resumes);
       return fail("tracking", std::move(why), now);
     }
@@ -177,6 +164,7 @@ struct MoveArm::Impl {
   SkillStatus plan(Stamp now) {
     collision.setScene(obstacles(arena), pose());
     if (const auto* lines = std::get_if<LineGoal>(&goal)) return planLines(*lines, now);
+    if (const auto* timed = std::get_if<TimedGoal>(&goal)) return planTimed(*timed, now);
     std::vector<Vector6d> goals;
     if (const auto* q = std::get_if<Vector6d>(&goal)) {
       if (!withinLimits(robot.arm, *q)) {
@@ -211,6 +199,19 @@ struct MoveArm::Impl {
     limits.path_speed = config.cartesian_speed_mps;
     limits.path_accel = config.cartesian_accel_mps2;
     return begin(std::move(*paths), limits, now);
+  }
+
+  SkillStatus planTimed(const TimedGoal& timed, Stamp now) {
+    if (!withinLimits(robot.arm, timed.q) || !(timed.duration_s > 0.0))
+      return fail("unreachable", "the goal is outside the joint limits", now);
+    std::string nearest;
+    if (!hasRoom(collision, timed.q, config.clearance_m, nearest))
+      return fail("in_collision", "the goal is too near: " + nearest, now);
+    if (!collision.pathIsFree(q_start, timed.q, config.clearance_m))
+      return fail("in_collision", "the straight way to the goal is not free", now);
+    JointPath path = straightJointPath(q_start, timed.q);
+    const JointPathLimits limits = slowedTo(path, jointLimits(), timed.duration_s);
+    return begin({std::move(path)}, limits, now);
   }
 
   JointPathLimits jointLimits() const {
@@ -351,6 +352,10 @@ void MoveArm::setSurroundings(const Surroundings* surroundings) {
 }
 
 void MoveArm::startJoints(const Vector6d& q_goal, Stamp now) { impl_->start(q_goal, now); }
+
+void MoveArm::startTimed(const Vector6d& q_goal, double duration_s, Stamp now) {
+  impl_->start(TimedGoal{q_goal, duration_s}, now);
+}
 
 void MoveArm::startPose(const Eigen::Isometry3d& X_base_flange, Stamp now) {
   impl_->start(PoseGoal{X_base_flange}, now);

@@ -53,6 +53,7 @@ class MoveArm final : public ArmMotion {
   void setSurroundings(const Surroundings* surroundings);
   /// Joint-space move, rad.
   void startJoints(const Vector6d& q_goal, Stamp now) override;
+  void startTimed(const Vector6d& q_goal, double duration_s, Stamp now) override;
   /// Flange pose in base; the solution nearest to the present joints that is free of collision
   /// along the way.
   void startPose(const Eigen::Isometry3d& X_base_flange, Stamp now) override;

@@ -44,6 +44,33 @@ Eigen::Isometry3d levelFrame(const GroundFit& ground) {
   return X;
 }
 
+/// @param place  (X_base_lidar at the point's time, point of the scan) to the point in base.
+template <class Place>
+void append(BrickSweep& sweep, const PointCloud& scan, const PoseTrack& X_base_lidar,
+            const Place& place) {
+  KILN_CHECK(!X_base_lidar.empty(), "no pose of the LiDAR");
+  // Few poses a scan: between two instants the LiDAR moves by less than a tenth of a millimetre.
+  std::vector<std::pair<long, Eigen::Isometry3f>> poses;
+  const auto poseAt = [&](double t_s) -> const Eigen::Isometry3f& {
+    const long instant = std::lround(t_s / kInstant_s);
+    if (poses.empty() || poses.back().first != instant)
+      poses.emplace_back(
+          instant,
+          X_base_lidar.at(scan.stamp + fromSeconds(static_cast<double>(instant) * kInstant_s))
+              .cast<float>());
+    return poses.back().second;
+  };
+  sweep.points.reserve(sweep.points.size() + scan.size());
+  sweep.origins.reserve(sweep.origins.size() + scan.size());
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    const Eigen::Vector3f p(scan.x[i], scan.y[i], scan.z[i]);
+    if (!isFinite(p)) continue;
+    const Eigen::Isometry3f& X = poseAt(static_cast<double>(scan.time_offset_s[i]));
+    sweep.points.emplace_back(place(X, p));
+    sweep.origins.emplace_back(X.translation());
+  }
+}
+
 }  // namespace
 
 void SweepPreparation::visit(ConfigArchive& a) {
@@ -58,27 +85,16 @@ void SweepPreparation::visit(ConfigArchive& a) {
 }
 
 void BrickSweep::add(const PointCloud& scan, const PoseTrack& X_base_lidar) {
-  KILN_CHECK(!X_base_lidar.empty(), "no pose of the LiDAR");
-  // Few poses a scan: between two instants the LiDAR moves by less than a tenth of a millimetre.
-  std::vector<std::pair<long, Eigen::Isometry3f>> poses;
-  const auto poseAt = [&](double t_s) -> const Eigen::Isometry3f& {
-    const long instant = std::lround(t_s / kInstant_s);
-    if (poses.empty() || poses.back().first != instant)
-      poses.emplace_back(
-          instant,
-          X_base_lidar.at(scan.stamp + fromSeconds(static_cast<double>(instant) * kInstant_s))
-              .cast<float>());
-    return poses.back().second;
-  };
-  points.reserve(points.size() + scan.size());
-  origins.reserve(origins.size() + scan.size());
-  for (std::size_t i = 0; i < scan.size(); ++i) {
-    const Eigen::Vector3f p(scan.x[i], scan.y[i], scan.z[i]);
-    if (!isFinite(p)) continue;
-    const Eigen::Isometry3f& X = poseAt(static_cast<double>(scan.time_offset_s[i]));
-    points.push_back(X * p);
-    origins.emplace_back(X.translation());
-  }
+  append(*this, scan, X_base_lidar, [](const Eigen::Isometry3f& X, const Eigen::Vector3f& p) -> Eigen::Vector3f { return X * p; });
+}
+
+void BrickSweep::addPrepared(const PointCloud& scan_base, const PoseTrack& X_base_lidar) {
+  append(*this, scan_base, X_base_lidar, [](const Eigen::Isometry3f&, const Eigen::Vector3f& p) { return p; });
+}
+
+void BrickSweep::add(const BrickSweep& other) {
+  points.insert(points.end(), other.points.begin(), other.points.end());
+  origins.insert(origins.end(), other.origins.begin(), other.origins.end());
 }
 
 Result<PreparedSweep> prepareSweep(const BrickSweep& sweep, const SweepRegion& region,

@@ -20,6 +20,9 @@ struct BrickSweep {
   /// @param scan          in `lidar`, freed of the robot itself.
   /// @param X_base_lidar  over the scan; not empty.
   void add(const PointCloud& scan, const PoseTrack& X_base_lidar);
+  /// The same of a scan that was put there already. @param scan_base  in `base`, with its times.
+  void addPrepared(const PointCloud& scan_base, const PoseTrack& X_base_lidar);
+  void add(const BrickSweep& other);  ///< of the same base
   [[nodiscard]] std::size_t size() const { return points.size(); }
 };
 

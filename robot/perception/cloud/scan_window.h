@@ -1,9 +1,11 @@
 #pragma once
 
 #include <deque>
+#include <memory>
 
 #include "common/config/config_archive.h"
 #include "common/model/sensor.h"
+#include "robot/perception/cloud/pose_track.h"
 
 namespace kiln {
 
@@ -26,6 +28,9 @@ class ScanWindow {
     PointCloudPtr scan_base;
     Eigen::Isometry3d X_map_base;    ///< believed, at the scan's stamp
     Eigen::Isometry3d X_base_lidar;  ///< at the scan's stamp
+    /// X_base_lidar while the scan was taken, in the base of its stamp; nullptr: not kept.
+    std::shared_ptr<const PoseTrack> lidar_track{};
+    Pose2 X_odom_base{};  ///< wheel odometry at the stamp: has the base stood still since?
   };
   explicit ScanWindow(Config config) : config_(config) {}
   /// Ignores a scan that is older than the newest, or whose pose is not finite.

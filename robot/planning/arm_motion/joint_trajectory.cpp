@@ -62,6 +62,25 @@ JointPath straightJointPath(const Vector6d& q_from, const Vector6d& q_to) {
   return path;
 }
 
+JointPathLimits slowedTo(const JointPath& path, JointPathLimits limits, double duration_s) {
+  const auto lasts = [&](double path_speed) {
+    JointPathLimits tried = limits;
+    tried.path_speed = path_speed;
+    return JointTrajectory({path}, tried).duration();
+  };
+  const double length = path.s.back() - path.s.front();
+  if (length <= 0.0 || lasts(limits.path_speed) >= duration_s) return limits;
+  // At the mean speed the ramps make it last longer than wanted, and the slower, the longer.
+  double slow = length / duration_s, fast = limits.path_speed;
+  constexpr int kHalvings = 60;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = std::min(0.5 * (slow + fast), 2.0 * slow);  // no limit is 1e6
+    (lasts(middle) > duration_s ? slow : fast) = middle;
+  }
+  limits.path_speed = fast;
+  return limits;
+}
+
 JointTrajectory::JointTrajectory(std::vector<JointPath> paths, const JointPathLimits& limits) {
   for (JointPath& path : paths) {
     Piece piece;

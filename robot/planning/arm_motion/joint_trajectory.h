@@ -25,6 +25,11 @@ struct JointPathLimits {
 /// Straight move in joint space: all joints start and end together.
 [[nodiscard]] JointPath straightJointPath(const Vector6d& q_from, const Vector6d& q_to);
 
+/// The limits, slower along the path so that its motion lasts `duration_s`; as they are where they
+/// make it last that long already. @pre the path has at least two samples; duration_s > 0.
+[[nodiscard]] JointPathLimits slowedTo(const JointPath& path, JointPathLimits limits,
+                                       double duration_s);
+
 /// Timed, jerk-limited motion along joint paths, at rest between two of them. Joint speeds are kept
 /// by slowing the path down where the joints must move much (near singularities).
 /// Thread-compatible.

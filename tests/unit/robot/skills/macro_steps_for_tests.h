@@ -11,6 +11,7 @@ class ScriptedArm final : public ArmMotion {
     q_goal = q;
     begin(now);
   }
+  void startTimed(const Vector6d& q, double, Stamp now) override { startJoints(q, now); }
   void startPose(const Eigen::Isometry3d& X_base_flange, Stamp now) override {
     X_goal = X_base_flange;
     begin(now);

@@ -82,6 +82,37 @@ TEST_F(MoveArmTest, MovesToAJointGoalWithinTheLimits) {
   }
 }
 
+TEST_F(MoveArmTest, TimedMoveLastsAsLongAsWanted) {
+  Vector6d q = home();
+  q[3] -= 0.4;
+  const Stamp begin = clock.now();
+  skill.startTimed(q, 4.2, clock.now());
+  ASSERT_EQ(run().phase, SkillPhase::Done) << status.failure_code << ": " << status.text;
+  EXPECT_GT(toSeconds(clock.now() - begin), 4.15);
+  EXPECT_LT(toSeconds(clock.now() - begin), 4.6);
+  EXPECT_LT((arm.state()->q - q).cwiseAbs().maxCoeff(), 0.5 * M_PI / 180);
+  q[2] = NAN;
+  skill.startTimed(q, 4.2, clock.now());
+  EXPECT_EQ(run().failure_code, "unreachable");
+}
+
+/// What looks around meanwhile would have a gap: an ordinary move is taken up again, this is not.
+TEST_F(MoveArmTest, TimedMoveEndsWithAnInterruption) {
+  Vector6d q = home();
+  q[3] -= 0.4;
+  skill.startTimed(q, 4.2, clock.now());
+  polling = true;
+  status = active->poll(clock.now());
+  advance(1.5);
+  polling = false;
+  advance(0.5);
+  polling = true;
+  advance(0.1);
+  EXPECT_EQ(status.failure_code, "tracking") << status.text;
+  advance(0.5);
+  EXPECT_EQ(status.phase, SkillPhase::Failed);
+}
+
 TEST_F(MoveArmTest, SearchesTheWholeRectangleInFrontOfThePlate) {
   skill.startPose(flangeForCamera(robot, {1.25, 0.35, 1.3}), clock.now());
   ASSERT_EQ(run().phase, SkillPhase::Done) << status.failure_code << ": " << status.text;

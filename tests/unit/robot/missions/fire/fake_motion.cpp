@@ -57,6 +57,10 @@ void FakeArmMotion::startJoints(const Vector6d& q_goal, Stamp now) {
   begin("joints", {q_goal}, now);
 }
 
+void FakeArmMotion::startTimed(const Vector6d& q_goal, double, Stamp now) {
+  begin("timed", {q_goal}, now);
+}
+
 void FakeArmMotion::startPose(const Eigen::Isometry3d& X_base_flange, Stamp now) {
   const auto q = check(X_base_flange);
   begin("pose", {q ? *q : device_.state()->q}, now);

@@ -16,6 +16,8 @@ class FakeArmMotion final : public ArmMotion {
   FakeArmMotion(const RobotGeometry& robot, FakeArm& device) : robot_(robot), device_(device) {}
 
   void startJoints(const Vector6d& q_goal, Stamp now) override;
+  /// At the fake's own speed, whatever the duration.
+  void startTimed(const Vector6d& q_goal, double duration_s, Stamp now) override;
   void startPose(const Eigen::Isometry3d& X_base_flange, Stamp now) override;
   void startCartesian(std::vector<Eigen::Isometry3d> X_base_flange, bool blend, Stamp now) override;
   /// To where the last motion began.

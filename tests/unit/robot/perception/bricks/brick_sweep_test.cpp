@@ -26,6 +26,24 @@ TEST(BrickSweep, PutsReturnsWhereTheLidarWasAtTheirTime) {
   EXPECT_LT((sweep.origins[1] - Eigen::Vector3f(0, 0.1F, 1)).norm(), 1e-3F);
 }
 
+TEST(BrickSweep, TakesPreparedReturnsAsTheyAre) {
+  PointCloud scan;
+  scan.stamp = Stamp{} + fromSeconds(1.0);
+  scan.push(3, 2, 1, 0, 0, 0.0F);
+  scan.push(3, 2, 1, 0, 0, 0.08F);
+  PoseTrack track;
+  track.push(scan.stamp, makePose({0, 0, 1}, {0, 0, 0}));
+  track.push(scan.stamp + fromSeconds(0.08), makePose({0, 0.1, 1}, {0, 0, M_PI_2}));
+  BrickSweep sweep, more;
+  sweep.addPrepared(scan, track);
+  more.add(sweep);
+  more.add(sweep);
+  ASSERT_EQ(more.size(), 4U);
+  for (const Eigen::Vector3f& p : more.points) EXPECT_EQ(p, Eigen::Vector3f(3, 2, 1));
+  EXPECT_LT((more.origins[2] - Eigen::Vector3f(0, 0, 1)).norm(), 1e-6F);
+  EXPECT_LT((more.origins[3] - Eigen::Vector3f(0, 0.1F, 1)).norm(), 1e-3F);
+}
+
 TEST(PrepareSweep, FindsTheGroundOfALeaningBase) {
   const BrickTrial trial = makeTrial({}, 5);
   const auto prepared =

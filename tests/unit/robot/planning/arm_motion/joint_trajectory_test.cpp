@@ -110,5 +110,23 @@ TEST(JointTrajectory, SlowsDownWhereTheJointsMustMoveMuch) {
   EXPECT_LE(worst.accel, 2.0 * 1.3);  // the averaging window spreads the bend a little
 }
 
+TEST(SlowedTo, LastsAsLongAsWantedAndKeepsItsSmoothness) {
+  Vector6d b = Vector6d::Zero();
+  b[3] = 0.45;
+  const JointPath path = straightJointPath(Vector6d::Zero(), b);
+  for (const double wanted : {1.5, 4.2, 12.0}) {
+    const JointTrajectory slow({path}, slowedTo(path, limits(), wanted));
+    EXPECT_NEAR(slow.duration(), wanted, 1e-3);
+    EXPECT_LT((slow.at(wanted).q - b).norm(), 1e-9);
+    EXPECT_LT(differentiate(slow).accel, 2.0);
+  }
+  const JointTrajectory fastest({path}, limits());
+  const JointTrajectory sooner({path}, slowedTo(path, limits(), 0.1));
+  EXPECT_EQ(sooner.duration(), fastest.duration()) << "no faster than the limits";
+  // A path without length has nothing to slow down.
+  const JointPath none = straightJointPath(b, b);
+  EXPECT_LT(JointTrajectory({none}, slowedTo(none, limits(), 4.0)).duration(), 0.2);
+}
+
 }  // namespace
 }  // namespace kiln

@@ -9,6 +9,7 @@ namespace {
 class ObedientArm final : public ArmMotion {
  public:
   void startJoints(const Vector6d&, Stamp) override { orders.push_back("joints"); }
+  void startTimed(const Vector6d&, double, Stamp) override { orders.push_back("timed"); }
   void startPose(const Eigen::Isometry3d& X, Stamp) override {
     orders.push_back("pose");
     goal = X;
