@@ -50,7 +50,7 @@ Pose2 pose2From(const json& j) { return {j.at("x_m"), j.at("y_m"), j.at("yaw_rad
 BrickTrial truthOf(const json& truth, const BrickTarget& target) {
   BrickTrial trial;
   trial.target = target;
-  trial.X_world_base = toIsometry(pose2From(truth.at("final_base")));
+  trial.X_world_base = poseFrom(truth.at("final_base"));
   const json& wall = truth.at("wall");
   trial.scene.X_world_target = toIsometry(pose2From(wall.at("pile")));
   trial.scene.database = target.bricks;
