@@ -48,8 +48,7 @@ PreparedScan prepareScan(const PointCloud& scan, const RobotGeometry& robot,
   correctRanges(filtered.cloud, robot.lidar_range_bias_m);
   if (motion.X_base_lidar.empty())  // no robot attached: show the scan as it came
     return {std::make_shared<PointCloud>(std::move(filtered.cloud)), nullptr};
-  auto cloud =
-      std::make_shared<PointCloud>(undistort(filtered.cloud, motion.X_base_lidar, "base"));
+  auto cloud = std::make_shared<PointCloud>(undistort(filtered.cloud, motion.X_base_lidar, "base"));
   return {std::move(cloud), std::make_shared<PoseTrack>(std::move(motion.X_base_lidar))};
 }
 

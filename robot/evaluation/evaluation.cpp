@@ -8,8 +8,7 @@ namespace {
 const EvaluationOption kWorld{"--world", "world file (default: the evaluation's own)",
                               &SweepOptions::world};
 const EvaluationOption kPileWorld{
-    "--world",
-    "wall_lab: the pile of that world instead, swept by its robot with its own sensors",
+    "--world", "wall_lab: the pile of that world instead, swept by its robot with its own sensors",
     &SweepOptions::world};
 const EvaluationOption kLocalization{"--localization", "surfel_map, walls or odometry",
                                      &SweepOptions::localization};

@@ -95,8 +95,7 @@ void judge(PileRun& run, const PileLook& look, const json& truth) {
   const std::vector<BrickOutcome> outcomes = compare(trial, look.sight.bricks);
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     const BrickOutcome& o = outcomes[i];
-    if (look.plan.cells[i] > 0.0)
-      run.cells_ratio.push_back(o.evidence.found / look.plan.cells[i]);
+    if (look.plan.cells[i] > 0.0) run.cells_ratio.push_back(o.evidence.found / look.plan.cells[i]);
     const bool trusts = o.confidence > kTrusted;
     if (trusts && o.error_m > kWrong_m) ++run.wrong;
     if (o.evidence.expected < BrickPoseEstimator::Config{}.min_expected) continue;
@@ -110,8 +109,8 @@ void judge(PileRun& run, const PileLook& look, const json& truth) {
   run.rough_off_m = rough.position_m;
   run.rough_off_deg = rough.yaw_deg;
   // The wheels' map begins where the robot was thought to start.
-  const Pose2 off = inverse(pose2From(truth.at("wall").at("pile"))) *
-                    pose2From(truth.at("start")) * look.X_start_pile;
+  const Pose2 off = inverse(pose2From(truth.at("wall").at("pile"))) * pose2From(truth.at("start")) *
+                    look.X_start_pile;
   run.found_off_m = std::hypot(off.x_m, off.y_m);
   run.found_off_deg = std::abs(off.yaw_rad) / kDeg;
 }
@@ -139,28 +138,29 @@ std::vector<Metric> figuresOf(const std::vector<PileRun>& runs) {
   const double perceived = total([](const PileRun& r) { return r.refused.empty() ? 1 : 0; });
   const auto position = list(&PileRun::position_m), yaw = list(&PileRun::yaw_deg);
   const auto share = [](double a, double b) { return b > 0.0 ? a / b : 0.0; };
-  return {
-      {"piles", static_cast<double>(runs.size()), "", "", true},
-      {"refused", static_cast<double>(runs.size()) - perceived, "", "", true},
-      {"found_median_m", median(each(&PileRun::found_off_m)), "m", "", true},
-      {"found_median_deg", median(each(&PileRun::found_off_deg)), "deg", "", true},
-      {"rough_median_m", median(each(&PileRun::rough_off_m)), "m", "", true},
-      {"rough_median_deg", median(each(&PileRun::rough_off_deg)), "deg", "", true},
-      {"position_median_m", median(position), "m", "", true},
-      {"position_p95_m", quantile(position, 0.95), "m", "", true},
-      {"yaw_median_deg", median(yaw), "deg", "", true},
-      {"yaw_p95_deg", quantile(yaw, 0.95), "deg", "", true},
-      {"trusted_share", share(total([](const PileRun& r) { return r.trusted; }), seen), "", "", true},
-      {"confidence_wrong", total([](const PileRun& r) { return r.wrong; }), "", "", true},
-      {"sweeps_mean",
-       share(total([](const PileRun& r) { return static_cast<double>(r.gather_s.size()); }), perceived),
-       "", "", true},
-      {"sweep_max_s", quantile(list(&PileRun::gather_s), 1.0), "s", "", true},
-      {"line_gap_median_deg", median(list(&PileRun::line_gap_deg)), "deg", "", true},
-      {"uncovered", total([](const PileRun& r) { return r.uncovered; }), "", "", true},
-      {"cells_of_expected_median", median(list(&PileRun::cells_ratio)), "", "", true},
-      {"plan_median_s", median(each(&PileRun::plan_s)), "s", "", true},
-      {"collisions_total", total([](const PileRun& r) { return r.collisions; }), "", "", true}};
+  return {{"piles", static_cast<double>(runs.size()), "", "", true},
+          {"refused", static_cast<double>(runs.size()) - perceived, "", "", true},
+          {"found_median_m", median(each(&PileRun::found_off_m)), "m", "", true},
+          {"found_median_deg", median(each(&PileRun::found_off_deg)), "deg", "", true},
+          {"rough_median_m", median(each(&PileRun::rough_off_m)), "m", "", true},
+          {"rough_median_deg", median(each(&PileRun::rough_off_deg)), "deg", "", true},
+          {"position_median_m", median(position), "m", "", true},
+          {"position_p95_m", quantile(position, 0.95), "m", "", true},
+          {"yaw_median_deg", median(yaw), "deg", "", true},
+          {"yaw_p95_deg", quantile(yaw, 0.95), "deg", "", true},
+          {"trusted_share", share(total([](const PileRun& r) { return r.trusted; }), seen), "", "",
+           true},
+          {"confidence_wrong", total([](const PileRun& r) { return r.wrong; }), "", "", true},
+          {"sweeps_mean",
+           share(total([](const PileRun& r) { return static_cast<double>(r.gather_s.size()); }),
+                 perceived),
+           "", "", true},
+          {"sweep_max_s", quantile(list(&PileRun::gather_s), 1.0), "s", "", true},
+          {"line_gap_median_deg", median(list(&PileRun::line_gap_deg)), "deg", "", true},
+          {"uncovered", total([](const PileRun& r) { return r.uncovered; }), "", "", true},
+          {"cells_of_expected_median", median(list(&PileRun::cells_ratio)), "", "", true},
+          {"plan_median_s", median(each(&PileRun::plan_s)), "s", "", true},
+          {"collisions_total", total([](const PileRun& r) { return r.collisions; }), "", "", true}};
 }
 
 }  // namespace
@@ -232,7 +232,8 @@ Result<EvaluationResult> evaluatePiles(const SweepOptions& options) {
   out.runs_json = all.dump();
   out.notes +=
       "a seed is one pile in the world: first look from the start, drive before what was found, "
-      "the sweeps that were planned there, bricks; by the simulator's own sensors. Errors of bricks "
+      "the sweeps that were planned there, bricks; by the simulator's own sensors. Errors of "
+      "bricks "
       "trusted above 0.7, against the truth.";
   return out;
 }

@@ -9,18 +9,18 @@ namespace kiln {
 /// One seed of a world with a pile: from the start on the robot looks for the pile with its own
 /// sensors, drives before it, sweeps and perceives its bricks; then held against the truth.
 struct PileRun {
-  std::string refused;  ///< why nothing was perceived; empty: it was
+  std::string refused;                      ///< why nothing was perceived; empty: it was
   std::vector<double> position_m, yaw_deg;  ///< errors of the bricks trusted above 0.7
-  int seen = 0;     ///< bricks of which the model says that enough is in sight
-  int trusted = 0;  ///< of these above 0.7
-  int wrong = 0;    ///< above 0.7 and off by more than 5 cm
-  int uncovered = 0;  ///< bricks that the plan did not hope to see well enough
+  int seen = 0;                     ///< bricks of which the model says that enough is in sight
+  int trusted = 0;                  ///< of these above 0.7
+  int wrong = 0;                    ///< above 0.7 and off by more than 5 cm
+  int uncovered = 0;                ///< bricks that the plan did not hope to see well enough
   std::vector<double> cells_ratio;  ///< found of expected, a brick
-  std::vector<double> gather_s, line_gap_deg;  ///< a sweep
+  std::vector<double> gather_s, line_gap_deg;     ///< a sweep
   double found_off_m = 0.0, found_off_deg = 0.0;  ///< of the pile, at the first look
   double rough_off_m = 0.0, rough_off_deg = 0.0;  ///< and as a whole, after the sweeps
-  double plan_s = 0.0;  ///< processor time of the choice of views
-  std::vector<std::string> sweeps;  ///< in words
+  double plan_s = 0.0;                            ///< processor time of the choice of views
+  std::vector<std::string> sweeps;                ///< in words
   int collisions = 0;
 };
 

@@ -22,10 +22,10 @@ class PileSweepTest : public ::testing::Test {
   /// The run of one seed, as kiln-eval tells it.
   json run(int seed, const std::string& calibrate) {
     const std::string out = scratch_.file("out.json");
-    auto process = ChildProcess::start(
-        {kiln::binaryDir() + "/bin/kiln-eval", "bricks", "--world", "wall_lab", "--seeds",
-         std::to_string(seed), calibrate, "--json", out},
-        scratch_.file("log"));
+    auto process =
+        ChildProcess::start({kiln::binaryDir() + "/bin/kiln-eval", "bricks", "--world", "wall_lab",
+                             "--seeds", std::to_string(seed), calibrate, "--json", out},
+                            scratch_.file("log"));
     if (!process || !process->wait(std::chrono::seconds(200))) return {};
     std::ifstream in(out);
     const json told = json::parse(in, nullptr, false);

@@ -10,7 +10,7 @@
 namespace kiln {
 namespace {
 
-constexpr double kBeside_m = 0.8;              // the pile may reach beyond what is known of its place
+constexpr double kBeside_m = 0.8;  // the pile may reach beyond what is known of its place
 constexpr double kWheels_m = 0.03, kWheels_rad = 1.0 * kDeg;  // on the way to the stand
 
 Error about(const char* what, const Error& error) {
@@ -34,8 +34,7 @@ Result<PileDetection> findPile(WallRig& rig, const ViewPlanner& planner,
   if (!motion) return tl::make_unexpected(about("the first look", motion.error()));
   const auto look = rig.sweep(*motion);
   if (!look) return tl::make_unexpected(about("the first look", look.error()));
-  const auto search =
-      PileDetector({}).detect(look->sweep, areaOf(site, rig.pose()), site.layout());
+  const auto search = PileDetector({}).detect(look->sweep, areaOf(site, rig.pose()), site.layout());
   if (!search) return tl::make_unexpected(about("the pile", search.error()));
   if (search->found.empty()) return makeError(ErrorCode::NotFound, "the pile: {}", search->why);
   return search->found.front();
@@ -91,8 +90,7 @@ Result<PileLook> lookAtPile(WallRig& rig, const RobotGeometry& robot, ArenaMap& 
 
   ExpectedBricks expected{targetOf(site, inverse(rig.pose()) * X_map_pile),
                           turned(found->covariance, rig.pose(), X_map_looked)};
-  expected.covariance.diagonal() +=
-      Eigen::Vector3d(kWheels_m, kWheels_m, kWheels_rad).cwiseAbs2();
+  expected.covariance.diagonal() += Eigen::Vector3d(kWheels_m, kWheels_m, kWheels_rad).cwiseAbs2();
   world.setScene(obstacles(arena), rig.pose());
   const ProcessorClock processor;
   const Stamp began = processor.now();

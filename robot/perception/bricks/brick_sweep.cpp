@@ -85,11 +85,15 @@ void SweepPreparation::visit(ConfigArchive& a) {
 }
 
 void BrickSweep::add(const PointCloud& scan, const PoseTrack& X_base_lidar) {
-  append(*this, scan, X_base_lidar, [](const Eigen::Isometry3f& X, const Eigen::Vector3f& p) -> Eigen::Vector3f { return X * p; });
+  append(*this, scan, X_base_lidar,
+         [](const Eigen::Isometry3f& X, const Eigen::Vector3f& p) -> Eigen::Vector3f {
+           return X * p;
+         });
 }
 
 void BrickSweep::addPrepared(const PointCloud& scan_base, const PoseTrack& X_base_lidar) {
-  append(*this, scan_base, X_base_lidar, [](const Eigen::Isometry3f&, const Eigen::Vector3f& p) { return p; });
+  append(*this, scan_base, X_base_lidar,
+         [](const Eigen::Isometry3f&, const Eigen::Vector3f& p) { return p; });
 }
 
 void BrickSweep::add(const BrickSweep& other) {

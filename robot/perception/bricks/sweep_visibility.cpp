@@ -69,8 +69,7 @@ std::vector<float> SweepVisibility::returnsOf(const PlannedSweep& sweep) {
     for (const FaceGrid& face : cloud.lattice[b])
       for (const std::uint8_t visible : face.visible) {
         if (visible != 0)
-          out[piece] =
-              static_cast<float>(returnsOn(cloud.points[next++], areas_m2_[piece], sweep));
+          out[piece] = static_cast<float>(returnsOn(cloud.points[next++], areas_m2_[piece], sweep));
         ++piece;
       }
   return out;

@@ -47,7 +47,8 @@ std::string whatHinders(const RobotGeometry& robot, const ArmCollision& world,
   if (!withinLimits(robot.arm, motion.q_from, kLimitMargin_rad) ||
       !withinLimits(robot.arm, motion.q_to, kLimitMargin_rad))
     return "a joint would pass its limit";
-  const Vector6d speed = (motion.q_to - motion.q_from).cwiseAbs() / (kRampShare * motion.duration_s);
+  const Vector6d speed =
+      (motion.q_to - motion.q_from).cwiseAbs() / (kRampShare * motion.duration_s);
   if (((speed - limits.speed_scale * robot.arm.velocity_limit).array() > 0.0).any())
     return "the arm would have to turn too fast";
   for (const Vector6d& q : {motion.q_from, motion.q_to}) {
@@ -113,8 +114,8 @@ std::vector<Eigen::Isometry3d> lidarPoses(const RobotGeometry& robot, const Swee
 }
 
 LidarView firstLook(const RobotGeometry& robot, double tilt_from_rad, double tilt_to_rad) {
-  const Eigen::Isometry3d X = robot.X_base_flange(RobotGeometry::radians(robot.q_drive_deg)) *
-                              robot.X_flange_lidar.pose();
+  const Eigen::Isometry3d X =
+      robot.X_base_flange(RobotGeometry::radians(robot.q_drive_deg)) * robot.X_flange_lidar.pose();
   const Eigen::Vector3d ahead = X.linear().col(0);
   return {X.translation(), std::atan2(ahead.y(), ahead.x()), tilt_from_rad, tilt_to_rad};
 }

@@ -21,9 +21,10 @@ void LidarSweep::Config::visit(ConfigArchive& a) {
 }
 
 std::string SweepCloud::text() const {
-  return fmt::format("{} scans in {:.1f} s, {} points, tilt {:.1f} to {:.1f} deg, a line each {:.2f} deg",
-                     scans, toSeconds(end - begin), sweep.size(), coverage.tilt_from_deg,
-                     coverage.tilt_to_deg, coverage.line_gap_deg);
+  return fmt::format(
+      "{} scans in {:.1f} s, {} points, tilt {:.1f} to {:.1f} deg, a line each {:.2f} deg", scans,
+      toSeconds(end - begin), sweep.size(), coverage.tilt_from_deg, coverage.tilt_to_deg,
+      coverage.line_gap_deg);
 }
 
 LidarSweep::LidarSweep(const Config& config, ArmMotion& arm, Scans scans)
@@ -80,7 +81,9 @@ bool LidarSweep::gather() {
     if (stamp < tilt_began_ || (last_ && stamp <= *last_)) continue;
     if (cloud_.scans > 0) {
       const Pose2 moved = inverse(X_odom_first_) * entry.X_odom_base;
-      const auto far = [](const Pose2& X) { return std::hypot(X.x_m, X.y_m) + std::abs(X.yaw_rad); };
+      const auto far = [](const Pose2& X) {
+        return std::hypot(X.x_m, X.y_m) + std::abs(X.yaw_rad);
+      };
       if (far(moved) > far(cloud_.base_moved)) cloud_.base_moved = moved;
       if (std::hypot(moved.x_m, moved.y_m) > config_.max_base_m ||
           std::abs(moved.yaw_rad) > config_.max_base_deg * kDeg)
@@ -88,8 +91,9 @@ bool LidarSweep::gather() {
     }
     last_ = stamp;
     const bool ended = stage_ == Stage::Wait && stamp >= tilt_ended_;
-    const bool late = cloud_.scans > 0 && stamp + fromSeconds(config_.scan_period_s) - cloud_.begin >
-                                              fromSeconds(config_.max_gather_s);
+    const bool late =
+        cloud_.scans > 0 && stamp + fromSeconds(config_.scan_period_s) - cloud_.begin >
+                                fromSeconds(config_.max_gather_s);
     if (!ended && !late && entry.lidar_track) take(entry);
   }
   return true;
@@ -112,7 +116,8 @@ void LidarSweep::take(const ScanWindow::Entry& entry) {
 }
 
 SkillStatus LidarSweep::finish() {
-  const int expected = static_cast<int>(toSeconds(tilt_ended_ - tilt_began_) / config_.scan_period_s);
+  const int expected =
+      static_cast<int>(toSeconds(tilt_ended_ - tilt_began_) / config_.scan_period_s);
   if (cloud_.scans < 2 || cloud_.scans < config_.min_share * expected)
     return fail("too_few_scans",
                 fmt::format("{} scans came during the sweep of {:.1f} s, {} expected; check the "

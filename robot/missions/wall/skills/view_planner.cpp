@@ -43,7 +43,8 @@ std::vector<Hypothesis> hypotheses(const ExpectedBricks& expected, double sigmas
   return out;
 }
 
-std::vector<ModelBrick> bricksAt(const BrickTarget& target, const Eigen::Isometry3d& X_base_target) {
+std::vector<ModelBrick> bricksAt(const BrickTarget& target,
+                                 const Eigen::Isometry3d& X_base_target) {
   std::vector<ModelBrick> out;
   for (const TargetBrick& brick : target.bricks)
     out.push_back({brick.id, brick.kind, X_base_target * brick.X_target_brick});
@@ -116,8 +117,8 @@ std::vector<LidarView> ViewPlanner::fan(const ExpectedBricks& expected) const {
     for (const double ahead : config_.ahead_m)
       for (const double aside : config_.aside_m) {
         LidarView view;
-        view.p_base =
-            mount + Eigen::AngleAxisd(towards, Eigen::Vector3d::UnitZ()) * Eigen::Vector3d(ahead, aside, up);
+        view.p_base = mount + Eigen::AngleAxisd(towards, Eigen::Vector3d::UnitZ()) *
+                                  Eigen::Vector3d(ahead, aside, up);
         const Eigen::Vector3d d = middle - view.p_base;
         view.yaw_rad = std::atan2(d.y(), d.x());
         double low = 1e9, high = -1e9;  // downwards
@@ -180,8 +181,7 @@ class ViewPlanner::Search {
   [[nodiscard]] double worth(const std::vector<double>& cells) const {
     double more = 0.0;
     for (std::size_t b = 0; b < cells.size(); ++b)
-      if (!target_.bricks[b].excluded)
-        more += std::min(1.0, cells[b] / (kMoreTimes * needed_));
+      if (!target_.bricks[b].excluded) more += std::min(1.0, cells[b] / (kMoreTimes * needed_));
     return covered(cells) + kMoreWorth * more;
   }
   [[nodiscard]] std::vector<std::size_t> uncovered(const std::vector<double>& cells) const {

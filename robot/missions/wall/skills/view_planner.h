@@ -31,8 +31,8 @@ struct ViewPlan {
   std::vector<double> cells;           ///< of each brick, expected by all of them together
   std::vector<std::size_t> uncovered;  ///< wanted bricks that stay below what perception needs
   int considered = 0;                  ///< views of the fan
-  int unreachable = 0;                 ///< of those that were asked for, the arm cannot make so many
-  std::string why;                     ///< of the last one
+  int unreachable = 0;  ///< of those that were asked for, the arm cannot make so many
+  std::string why;      ///< of the last one
 };
 
 /// Chooses the few sweeps that show all bricks that can be seen: from a fan of places and heights of
@@ -44,12 +44,12 @@ class ViewPlanner {
  public:
   struct Config {
     int max_views = 3;
-    double duration_s = 4.2;   ///< of one motion; the scans of rest at its ends make it 5 s at most
-    double margin_deg = 2.0;   ///< of tilt above and below the bricks
+    double duration_s = 4.2;  ///< of one motion; the scans of rest at its ends make it 5 s at most
+    double margin_deg = 2.0;  ///< of tilt above and below the bricks
     double min_span_deg = 12.0, max_span_deg = 50.0;  ///< of tilt
     double needed_cells = 0.0;  ///< found of a brick; 0: cellsNeeded() of brick perception
     double min_gain = 0.05;     ///< of one brick; a further sweep that adds less is not made
-    double sigmas = 2.0;         ///< of the poses that are tried (unscented transform)
+    double sigmas = 2.0;        ///< of the poses that are tried (unscented transform)
     int instants = 9;           ///< of a motion, for the expectation
     /// The fan: places of the LiDAR about the arm's mount, in its own axes turned to the bricks.
     std::vector<double> ahead_m{0.55, 0.3, 0.8};

@@ -15,8 +15,8 @@ namespace {
 PlannedSweep planned(const SweepSensor& sensor, int instants) {
   PlannedSweep out{{}, sensor.sweep_s};
   for (int k = 0; k < instants; ++k) {
-    const double tilt = sensor.tilt_from_deg +
-                        (sensor.tilt_to_deg - sensor.tilt_from_deg) * k / (instants - 1);
+    const double tilt =
+        sensor.tilt_from_deg + (sensor.tilt_to_deg - sensor.tilt_from_deg) * k / (instants - 1);
     out.X_world_lidar.push_back(
         makePose({sensor.ahead_m, 0, sensor.height_m - sensor.lever_m}, {0, tilt * kDeg, 0}) *
         Eigen::Translation3d(0, 0, sensor.lever_m));
@@ -42,7 +42,8 @@ TEST(SweepVisibility, ExpectsTheReturnsThatComeBack) {
       brick.id = static_cast<int>(bricks.size());
       brick.kind = y > 0.5 ? BrickKind::Green : BrickKind::Red;
       brick.size_m = brickSize(brick.kind);
-      brick.X_world_brick = makePose({3.2 + 0.3 * y, y, 0.1 + 0.2 * layer}, {0, 0, M_PI_2 + 0.4 * y});
+      brick.X_world_brick =
+          makePose({3.2 + 0.3 * y, y, 0.1 + 0.2 * layer}, {0, 0, M_PI_2 + 0.4 * y});
       scene.bricks.push_back(brick);
       bricks.push_back({brick.id, brick.kind, brick.X_world_brick});
     }
@@ -73,8 +74,7 @@ TEST(SweepVisibility, WhatIsHiddenOrOutOfTheTiltGivesNothing) {
   sensor.height_m = 1.6;
   sensor.tilt_from_deg = -40.0;
   sensor.tilt_to_deg = -2.0;
-  for (const double found :
-       visibility.cellsFound(visibility.returnsOf(planned(sensor, 9))))
+  for (const double found : visibility.cellsFound(visibility.returnsOf(planned(sensor, 9))))
     EXPECT_EQ(found, 0.0);
 }
 

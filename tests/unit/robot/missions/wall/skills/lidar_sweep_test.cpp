@@ -115,7 +115,8 @@ TEST_F(LidarSweepTest, GivesEachFiringTheLidarOfItsTime) {
   const Stamp begin = cloud.begin + std::chrono::milliseconds(1000);
   EXPECT_TRUE(cloud.sweep.points[i].isApprox(Eigen::Vector3f(2.0F, 0.0F, 0.5F)));
   for (const auto& [k, ms] : {std::pair{i, 20}, std::pair{i + 1, 50}}) {
-    const Eigen::Vector3d expected = X_base_lidar(begin + std::chrono::milliseconds(ms)).translation();
+    const Eigen::Vector3d expected =
+        X_base_lidar(begin + std::chrono::milliseconds(ms)).translation();
     EXPECT_LT((cloud.sweep.origins[k].cast<double>() - expected).norm(), 1e-4);
   }
 }

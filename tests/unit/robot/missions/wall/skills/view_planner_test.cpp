@@ -28,9 +28,10 @@ class ViewPlannerTest : public ::testing::Test {
   static ExpectedBricks hiddenBricks() {
     ExpectedBricks out;
     for (int layer = 0; layer < 5; ++layer)
-      out.target.bricks.push_back({layer, BrickKind::Green,
-                                   makePose({2.0, 0, 0.1 + 0.2 * layer}, {0, 0, kAcross}), true});
-    out.target.bricks.push_back({kLeft, BrickKind::Red, makePose({3.0, 0.25, 0.1}, {0, 0, 0}), false});
+      out.target.bricks.push_back(
+          {layer, BrickKind::Green, makePose({2.0, 0, 0.1 + 0.2 * layer}, {0, 0, kAcross}), true});
+    out.target.bricks.push_back(
+        {kLeft, BrickKind::Red, makePose({3.0, 0.25, 0.1}, {0, 0, 0}), false});
     out.target.bricks.push_back(
         {kRight, BrickKind::Red, makePose({3.0, -0.25, 0.1}, {0, 0, 0}), false});
     return out;
@@ -132,7 +133,8 @@ TEST_F(ViewPlannerTest, WhatIsUncertainIsSpannedWiderAndExpectedLess) {
   ExpectedBricks sure = labBricks(), unsure = labBricks();
   unsure.covariance = Eigen::Vector3d(0.3, 0.3, 8.0 * kDeg).cwiseAbs2().asDiagonal();
   EXPECT_GT(planner.fan(unsure)[0].span(), planner.fan(sure)[0].span() + 2.0 * kDeg);
-  const auto plan = planner.plan(unsure, byArm(planner)), again = planner.plan(unsure, byArm(planner));
+  const auto plan = planner.plan(unsure, byArm(planner)),
+             again = planner.plan(unsure, byArm(planner));
   ASSERT_TRUE(plan.has_value() && again.has_value());
   EXPECT_TRUE(plan->uncovered.empty());
   ASSERT_EQ(plan->views.size(), again->views.size());
