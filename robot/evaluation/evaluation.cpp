@@ -10,6 +10,11 @@ const EvaluationOption kWorld{"--world", "world file (default: the evaluation's 
 const EvaluationOption kPileWorld{
     "--world", "wall_lab: the pile of that world instead, swept by its robot with its own sensors",
     &SweepOptions::world};
+const EvaluationOption kNeededCells{
+    "--needed-cells",
+    "with --world: cells of 2 cm that a sweep must show of a brick (default: what perception "
+    "needs); more makes more sweeps",
+    {}};
 const EvaluationOption kLocalization{"--localization", "surfel_map, walls or odometry",
                                      &SweepOptions::localization};
 const EvaluationOption kCalibrate{
@@ -86,7 +91,7 @@ const std::vector<Evaluation>& evaluations() {
        "disturbed, against their truth; the paper's own method on the same sweeps",
        evaluateBricks,
        {1, 100},
-       {kPileWorld, kCalibrate}},
+       {kPileWorld, kNeededCells, kCalibrate}},
       {"calibrate",
        "finds the mounting of LiDAR and thermal camera by moving the arm; --out FILE is for "
        "kiln-robotd --calibration",

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <filesystem>
 
 #include <nlohmann/json.hpp>
@@ -76,7 +77,7 @@ Result<RobotGeometry> robotOf(const KnownWorld& world, int seed, bool calibrated
 }
 
 Result<PileLook> look(SimLink& link, ManualClock& clock, const RobotGeometry& robot,
-                      ArenaMap& arena, int seed) {
+                      ArenaMap& arena, const PileLookOptions& options) {
   const auto site = loadWallSite(arena);
   if (!site) return tl::make_unexpected(site.error());
   arena.fixtures[kWallSite] = site->fixtures();
@@ -87,7 +88,7 @@ Result<PileLook> look(SimLink& link, ManualClock& clock, const RobotGeometry& ro
   };
   WallRig rig(robot, arena, {link.arm(), link.base(), link.lidar(), clock, step});
   if (auto begun = rig.begin(); !begun) return tl::make_unexpected(begun.error());
-  return lookAtPile(rig, robot, arena, *site, kNearest_m + kStand_m * (seed % kStands));
+  return lookAtPile(rig, robot, arena, *site, options);
 }
 
 void judge(PileRun& run, const PileLook& look, const json& truth) {
@@ -113,6 +114,19 @@ void judge(PileRun& run, const PileLook& look, const json& truth) {
                     look.X_start_pile;
   run.found_off_m = std::hypot(off.x_m, off.y_m);
   run.found_off_deg = std::abs(off.yaw_rad) / kDeg;
+}
+
+Result<double> neededCells(const SweepOptions& options) {
+  const auto given = options.own.find("needed-cells");
+  if (given == options.own.end()) return 0.0;
+  constexpr double kMost = 1e5;
+  const std::string& text = given->second;
+  double n = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), n);
+  if (error != std::errc() || end != text.data() + text.size() || !(n >= 1.0 && n <= kMost))
+    return makeError(ErrorCode::InvalidInput, "--needed-cells must be 1 to {:.0f}, not '{}'", kMost,
+                     text);
+  return n;
 }
 
 std::vector<double> joined(const std::vector<PileRun>& runs, std::vector<double> PileRun::*list) {
@@ -165,7 +179,7 @@ std::vector<Metric> figuresOf(const std::vector<PileRun>& runs) {
 
 }  // namespace
 
-Result<PileRun> runPile(const std::string& world, int seed, bool calibrated) {
+Result<PileRun> runPile(const std::string& world, int seed, bool calibrated, double needed_cells) {
   const auto what = known(world);
   if (!what) return tl::make_unexpected(what.error());
   const auto robot = robotOf(*what, seed, calibrated);
@@ -175,7 +189,10 @@ Result<PileRun> runPile(const std::string& world, int seed, bool calibrated) {
   ManualClock clock;
   auto sim = LockstepWorld::start("pile", seed, world, clock);
   if (!sim) return tl::make_unexpected(sim.error());
-  const auto looked = look((*sim)->link(), clock, *robot, *arena, seed);
+  PileLookOptions options;
+  options.stand_m = kNearest_m + kStand_m * (seed % kStands);
+  options.views.needed_cells = needed_cells;
+  const auto looked = look((*sim)->link(), clock, *robot, *arena, options);
   const auto truth = (*sim)->end();
   if (!truth) return tl::make_unexpected(truth.error());
   PileRun run;
@@ -217,12 +234,14 @@ json toJson(const PileRun& run, int seed) {
 }
 
 Result<EvaluationResult> evaluatePiles(const SweepOptions& options) {
+  const auto needed = neededCells(options);
+  if (!needed) return tl::make_unexpected(needed.error());
   EvaluationResult out;
   out.name = "bricks";
   std::vector<PileRun> runs;
   json all = json::array();
   for (int seed = options.first_seed; seed <= options.last_seed; ++seed) {
-    auto run = runPile(options.world, seed, options.calibrate);
+    auto run = runPile(options.world, seed, options.calibrate, *needed);
     if (!run) return tl::make_unexpected(run.error());
     if (!run->refused.empty()) out.notes += fmt::format("seed {}: {}\n", seed, run->refused);
     all.push_back(toJson(*run, seed));

@@ -26,7 +26,9 @@ struct PileRun {
 
 /// @param calibrated  with the LiDAR's mounting and ranges as `kiln-eval calibrate` finds them for
 ///                    the same seed's head; else nominal.
-[[nodiscard]] Result<PileRun> runPile(const std::string& world, int seed, bool calibrated);
+/// @param needed_cells  of a brick, for the choice of views; 0: what perception needs.
+[[nodiscard]] Result<PileRun> runPile(const std::string& world, int seed, bool calibrated,
+                                      double needed_cells = 0.0);
 [[nodiscard]] nlohmann::json toJson(const PileRun& run, int seed);
 
 /// kiln-eval bricks --world WORLD.

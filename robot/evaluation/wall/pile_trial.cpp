@@ -67,9 +67,9 @@ RobotGeometry withLidarOf(RobotGeometry robot, const RobotGeometry& calibrated) 
 }
 
 Result<PileLook> lookAtPile(WallRig& rig, const RobotGeometry& robot, ArenaMap& arena,
-                            WallSiteMap site, double stand_m) {
+                            WallSiteMap site, const PileLookOptions& options) {
   PileLook out;
-  const ViewPlanner planner({}, robot);
+  const ViewPlanner planner(options.views, robot);
   ArmCollision world(robot);
   world.setScene(obstacles(arena), rig.pose());
   const auto found = findPile(rig, planner, planner.reachOf(world, rig.joints()), site);
@@ -84,7 +84,7 @@ Result<PileLook> lookAtPile(WallRig& rig, const RobotGeometry& robot, ArenaMap& 
   // From now on it stands where it was found, for arm and base.
   site.pile = {{X_map_pile.x_m, X_map_pile.y_m}, X_map_pile.yaw_rad / kDeg};
   arena.fixtures[kWallSite] = site.fixtures();
-  const Pose2 stand{half, -(stand_m + 0.5 * kBrickSide_m), M_PI_2};
+  const Pose2 stand{half, -(options.stand_m + 0.5 * kBrickSide_m), M_PI_2};
   if (auto there = rig.driveTo(X_map_pile * stand); !there)
     return tl::make_unexpected(about("the way to the pile", there.error()));
 

@@ -23,10 +23,14 @@ struct PileLook {
   double plan_s = 0.0;  ///< processor time of the planning of views
 };
 
-/// @param stand_m  of the base's middle from the pile's front line.
+struct PileLookOptions {
+  double stand_m = 3.0;  ///< of the base's middle from the pile's front line
+  ViewPlanner::Config views;
+};
+
 /// @return the first step's Error that failed, with what it was about.
 [[nodiscard]] Result<PileLook> lookAtPile(WallRig& rig, const RobotGeometry& robot, ArenaMap& arena,
-                                          WallSiteMap site, double stand_m);
+                                          WallSiteMap site, const PileLookOptions& options);
 
 /// The robot with the mounting and ranges of its LiDAR as a calibration of the same head found them.
 [[nodiscard]] RobotGeometry withLidarOf(RobotGeometry robot, const RobotGeometry& calibrated);

@@ -64,7 +64,7 @@ TEST(SweepVisibility, WhatIsHiddenOrOutOfTheTiltGivesNothing) {
       {0, BrickKind::Blue, makePose({3.0, 0, 0.1}, {0, 0, M_PI_2})},
       {1, BrickKind::Red, makePose({3.6, 0, 0.1}, {0, 0, M_PI_2})}};
   SweepSensor sensor = exactSensor();
-  sensor.height_m = 0.5;
+  sensor.height_m = 0.25;
   SweepVisibility visibility({}, bricks);
   const auto cells = visibility.cellsFound(visibility.returnsOf(planned(sensor, 9)));
   ASSERT_EQ(cells.size(), 2U);
