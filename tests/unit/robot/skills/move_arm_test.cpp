@@ -89,7 +89,7 @@ TEST_F(MoveArmTest, TimedMoveLastsAsLongAsWanted) {
   skill.startTimed(q, 4.2, clock.now());
   ASSERT_EQ(run().phase, SkillPhase::Done) << status.failure_code << ": " << status.text;
   EXPECT_GT(toSeconds(clock.now() - begin), 4.15);
-  EXPECT_LT(toSeconds(clock.now() - begin), 4.6);
+  EXPECT_LT(toSeconds(clock.now() - begin), 5.0);  // to come to rest at either end
   EXPECT_LT((arm.state()->q - q).cwiseAbs().maxCoeff(), 0.5 * M_PI / 180);
   q[2] = NAN;
   skill.startTimed(q, 4.2, clock.now());
