@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "common/core/check.h"
 #include "common/core/mutex.h"
 #include "common/core/units.h"
 #include "robot/control/arm_setpoint_check.h"
@@ -30,28 +31,6 @@ constexpr auto kDeviceHolds = std::chrono::milliseconds(150);
 constexpr auto kDeviceRests = std::chrono::milliseconds(300);
 
 }  // namespace
-
-void ArmController::Config::visit(ConfigArchive& a) {
-  a.field("servo_rate_hz", servo_rate_hz, "Hz", 50, 500, "control tick; 500 for a UR10e");
-  a.field("max_speed_scale", max_speed_scale, "", 0.01, 1, "of the vendor's joint speed limits");
-  a.field("max_accel_radps2", max_accel_radps2, "rad/s^2", 0.1, 20, "each joint");
-  a.field("max_jerk_radps3", max_jerk_radps3, "rad/s^3", 1, 500, "each joint");
-  a.field("stop_decel_radps2", stop_decel_radps2, "rad/s^2", 1, 40, "on STOP, contact and loss");
-  a.field("stop_jerk_radps3", stop_jerk_radps3, "rad/s^3", 10, 2000, "ramp-in of the stop");
-  a.field("tracking_gain_hz", tracking_gain_hz, "1/s", 0.5, 20, "joint error to correcting speed");
-  a.field("max_lead_s", max_lead_s, "s", 0.02, 1, "targets further ahead at full speed are jumps");
-  a.field("limit_margin_deg", limit_margin_deg, "deg", 0, 20, "soft limits inside the joint range");
-  a.field("max_tracking_error_deg", max_tracking_error_deg, "deg", 1, 60, "more stops the arm");
-  a.field("max_state_age_s", max_state_age_s, "s", 0.01, 0.5, "older arm states mean stop");
-  a.field("future_tolerance_s", future_tolerance_s, "s", 0, 0.5, "setpoints further ahead refused");
-  a.field("force_filter_s", force_filter_s, "s", 0.001, 0.5, "low-pass of the contact force");
-  a.field("force_bias_filter_s", force_bias_filter_s, "s", 0.1, 60, "slow mean of the force");
-  a.field("max_force_bias_n", max_force_bias_n, "N", 0, 50, "largest mean that is taken away");
-  a.field("payload_kg", payload_kg, "kg", 0, 12.5, "what the arm is told to carry");
-  a.field("payload_com_m", payload_com_m, "m", -1, 1, "its centre of mass in flange");
-  a.field("max_zero_force_n", max_zero_force_n, "N", 0, 100,
-          "more at rest is a contact: not zeroed");
-}
 
 struct ArmController::Impl {
   using Kind = ArmSetpoint::Kind;
@@ -97,6 +76,13 @@ struct ArmController::Impl {
 
   /// A device that was away has been switched off in between, for all that is known.
   void setUpForceSensor(Stamp now, const ArmState& state, double dt) {
+    if (zero_requested.exchange(false) && force_sensor != ForceSensor::Unknown) {
+      force_sensor = ForceSensor::Told;
+      rest_s = 0.0;
+    }
+    if (load_changed.exchange(false) && force_sensor != ForceSensor::Unknown &&
+        !arm.setPayload(payload()))
+      load_changed = true;
     if (toSeconds(now - state.stamp) > kDeviceAway_s) {
       force_sensor = ForceSensor::Unknown;
       return;
@@ -104,8 +90,7 @@ struct ArmController::Impl {
     rest_s = commandRests() && state.qd.cwiseAbs().maxCoeff() < kRestSpeed ? rest_s + dt : 0.0;
     switch (force_sensor) {
       case ForceSensor::Unknown: {
-        const std::vector<double>& com = config.payload_com_m;
-        if (!arm.setPayload({config.payload_kg, {com[0], com[1], com[2]}})) return;
+        if (!arm.setPayload(payload())) return;
         force_sensor = ForceSensor::Told;
         rest_s = 0.0;
         return;
@@ -122,10 +107,22 @@ struct ArmController::Impl {
         if (rest_s < kForceSettles_s) return;
         contact.restart();
         force_sensor = ForceSensor::Ready;
+        ++zeroings;
         return;
       case ForceSensor::Ready:
         return;
     }
+  }
+
+  /// Head and what it holds.
+  [[nodiscard]] ArmPayload payload() const {
+    const std::lock_guard lock(mutex);
+    const std::vector<double>& com = config.payload_com_m;
+    ArmPayload all{config.payload_kg, {com[0], com[1], com[2]}};
+    if (load.mass_kg <= 0.0) return all;
+    all.mass_kg += load.mass_kg;
+    all.p_flange_com += (load.mass_kg / all.mass_kg) * (load.p_flange_com - all.p_flange_com);
+    return all;
   }
 
   [[nodiscard]] bool commandRests() const {
@@ -287,6 +284,7 @@ struct ArmController::Impl {
     tracking.contact_force_n = contact.force();
     tracking.protective_stop = protective;
     tracking.refused = refused;
+    tracking.zeroings = zeroings;
     tracking.stop_latched = stop.latched();
     tracking.blocked = blocked;
     const bool moves = blocked.empty() && !current.rests();
@@ -310,7 +308,9 @@ struct ArmController::Impl {
   enum class ForceSensor : std::uint8_t { Unknown, Told, Zeroed, Ready };
   ForceSensor force_sensor = ForceSensor::Unknown;
   double rest_s = 0.0;
-  std::atomic<bool> release_requested{false};
+  std::uint32_t zeroings = 0;
+  std::atomic<bool> release_requested{false}, zero_requested{false}, load_changed{false};
+  ArmPayload load;  ///< beyond the head, guarded by `mutex`
   std::optional<Stamp> last_tick, last_sent;
   mutable Mutex mutex;
   ArmTracking tracking;
@@ -334,6 +334,18 @@ Result<void> ArmController::releaseProtectiveStop() {
   if (released) impl_->release_requested = true;
   return released;
 }
+
+void ArmController::carry(const ArmPayload& load) {
+  KILN_CHECK(std::isfinite(load.mass_kg) && load.mass_kg >= 0.0 && load.p_flange_com.allFinite(),
+             load.mass_kg);
+  {
+    const std::lock_guard lock(impl_->mutex);
+    impl_->load = load;
+  }
+  impl_->load_changed = true;
+}
+
+void ArmController::zeroForce() { impl_->zero_requested = true; }
 
 void ArmController::tick(Stamp now) {
   Impl& m = *impl_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -42,6 +43,8 @@ struct ArmTracking {
   bool protective_stop = false;  ///< latched until releaseProtectiveStop()
   bool refused =
       false;  ///< the newest setpoint was refused (NaN, out of limits, jump); `blocked` says why
+  /// Times that the force sensor was zeroed and the force has settled since.
+  std::uint32_t zeroings = 0;
   std::string
       blocked;  ///< why it does not move: "protective stop", "STOP latched", "setpoint too old" ...
   std::optional<Writer> writer;  ///< as of BaseTracking
@@ -51,8 +54,8 @@ struct ArmTracking {
 /// out-of-limit and stale setpoints; never lets one reach the device. A protective stop of the
 /// device is latched here: only releaseProtectiveStop() ends it, and then nothing moves until a
 /// fresh setpoint comes. A device that is met anew is told its payload, and its force sensor is
-/// zeroed once the arm rests without contact. setpoint(), tracking() and releaseProtectiveStop()
-/// are thread-safe, tick() is confined to the control thread.
+/// zeroed once the arm rests without contact. setpoint(), tracking(), releaseProtectiveStop(), carry() and
+/// zeroForce() are thread-safe, tick() is confined to the control thread.
 class ArmController {
  public:
   struct Config {
@@ -86,6 +89,12 @@ class ArmController {
   /// Ends a latched protective stop, at the device and here. Only on the operator's explicit word.
   /// Afterwards the command is the measured pose and every earlier setpoint is void.
   Result<void> releaseProtectiveStop();
+  /// What hangs on the flange beyond the head from now on; mass 0: nothing. The device is told of
+  /// both as one, also when it comes back after it was away. Thread-safe. @pre finite, mass >= 0.
+  void carry(const ArmPayload& load);
+  /// Zeroes the force sensor as soon as the arm rests without contact: tracking().zeroings counts
+  /// it. Thread-safe.
+  void zeroForce();
 
  private:
   struct Impl;

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "common/core/error.h"
 #include "common/core/stamp.h"
 #include "common/geom/pose.h"
+#include "robot/planning/arm_motion/arm_collision.h"
 #include "robot/skills/skill.h"
 
 namespace kiln {
@@ -19,11 +21,22 @@ class BaseMotion {
   virtual void cancel() = 0;  ///< base ramps to rest
 };
 
+/// What differs from the skill's configuration in the moves that begin under it.
+struct ArmMoveTerms {
+  std::optional<double> line_speed_mps, guard_force_n, clearance_m, joint_accel_radps2, speed_scale;
+  ArmScene scene;                      ///< what stands around beside the arena
+  std::optional<OrientedBox> carried;  ///< a box fixed to the flange, in flange axes
+  bool keep_tilt = false;  ///< joint moves turn what is carried about the vertical alone
+  bool watch = true;       ///< the live cloud may forbid it
+};
+
 /// The arm as missions see it: collision-checked, guarded motion to joint or Cartesian goals.
 /// Implemented by MoveArm. Confined to the mission thread.
 class ArmMotion {
  public:
   virtual ~ArmMotion() = default;
+  /// Of all moves and checks from now on; {}: the usual ones.
+  virtual void setTerms(ArmMoveTerms terms) = 0;
   virtual void startJoints(const Vector6d& q_goal, Stamp now) = 0;
   /// Straight in joint space from where the arm rests, so slowly that the motion lasts
   /// `duration_s`, for a sensor that looks around meanwhile. There is no way around: in_collision

@@ -63,6 +63,7 @@ struct MoveArm::Impl {
 
   void start(Goal wanted, Stamp now) {
     goal = std::move(wanted);
+    terms = next_terms;
     stage = Stage::Settling;
     status = {SkillPhase::Running, 0.0, "coming to rest", ""};
     trajectory.reset();
@@ -79,8 +80,8 @@ struct MoveArm::Impl {
 
   /// Again from where the arm comes to rest, if nothing was touched and not too often.
   SkillStatus interrupted(const ArmTracking& tracking, std::string why, Stamp now) {
-    const bool touched =
-        config.guard_force_n > 0.0 && tracking.contact_force_n > kTouched * config.guard_force_n;
+    const double guard_n = guardForce();
+    const bool touched = guard_n > 0.0 && tracking.contact_force_n > kTouched * guard_n;
     const bool once = std::holds_alternative<TimedGoal>(goal);
     if (touched || once || resumes >= config.max_resumes) {
       if (resumes > 0) why += fmt::format(" (after {} new tries)", resumes);
@@ -162,7 +163,8 @@ struct MoveArm::Impl {
   }
 
   SkillStatus plan(Stamp now) {
-    collision.setScene(obstacles(arena), pose());
+    collision.setScene(obstacles(arena), pose(), terms.scene);
+    collision.setCarried(terms.carried);
     if (const auto* lines = std::get_if<LineGoal>(&goal)) return planLines(*lines, now);
     if (const auto* timed = std::get_if<TimedGoal>(&goal)) return planTimed(*timed, now);
     std::vector<Vector6d> goals;
@@ -177,11 +179,11 @@ struct MoveArm::Impl {
     }
     std::string nearest;
     std::erase_if(goals, [&](const Vector6d& q) {
-      return !hasRoom(collision, q, config.clearance_m, nearest);
+      return !hasRoom(collision, q, clearance(terms), nearest);
     });
     if (goals.empty()) return fail("in_collision", "the goal is too near: " + nearest, now);
     enter(Stage::Planning, now);
-    return proceed(planner.start(q_start, goals), now);
+    return proceed(planner.start(q_start, goals, {clearance(terms), terms.keep_tilt}), now);
   }
 
   SkillStatus planLines(const LineGoal& lines, Stamp now) {
@@ -189,14 +191,16 @@ struct MoveArm::Impl {
       if (!isFinite(X)) return fail("unreachable", "the pose is not a number", now);
     }
     if (lines.X_base_flange.empty()) return fail("unreachable", "no pose to go to", now);
-    auto paths = cartesianPaths(robot, collision, config.cartesian, q_start, lines.X_base_flange,
-                                lines.blend);
+    CartesianPathConfig demand = config.cartesian;
+    demand.clearance_m = clearance(terms);
+    auto paths =
+        cartesianPaths(robot, collision, demand, q_start, lines.X_base_flange, lines.blend);
     if (!paths) {
       const bool near = paths.error().code == ErrorCode::Refused;
       return fail(near ? "in_collision" : "unreachable", paths.error().message, now);
     }
     JointPathLimits limits = jointLimits();
-    limits.path_speed = config.cartesian_speed_mps;
+    limits.path_speed = terms.line_speed_mps.value_or(config.cartesian_speed_mps);
     limits.path_accel = config.cartesian_accel_mps2;
     return begin(std::move(*paths), limits, now);
   }
@@ -216,8 +220,8 @@ struct MoveArm::Impl {
 
   JointPathLimits jointLimits() const {
     JointPathLimits limits;
-    limits.speed = config.speed_scale * robot.arm.velocity_limit;
-    limits.accel = Vector6d::Constant(config.joint_accel_radps2);
+    limits.speed = terms.speed_scale.value_or(config.speed_scale) * robot.arm.velocity_limit;
+    limits.accel = Vector6d::Constant(terms.joint_accel_radps2.value_or(config.joint_accel_radps2));
     limits.jerk_time_s = config.jerk_time_s;
     return limits;
   }
@@ -247,7 +251,7 @@ struct MoveArm::Impl {
   }
 
   SkillStatus begin(std::vector<JointPath> paths, const JointPathLimits& limits, Stamp now) {
-    if (surroundings) {
+    if (surroundings && terms.watch) {
       std::string why =
           whatHindersArm(config.watch, collision, robot.X_base_armbase.pose().translation(), paths,
                          *surroundings, now);
@@ -263,8 +267,15 @@ struct MoveArm::Impl {
 
   /// Something may press already, namely what the arm met and now leaves.
   [[nodiscard]] double guard() const {
-    if (config.guard_force_n <= 0.0) return 0.0;
-    return std::max(config.guard_force_n, pressed_n + kPressedHarder * config.guard_force_n);
+    const double guard_n = guardForce();
+    if (guard_n <= 0.0) return 0.0;
+    return std::max(guard_n, pressed_n + kPressedHarder * guard_n);
+  }
+  [[nodiscard]] double guardForce() const {
+    return terms.guard_force_n.value_or(config.guard_force_n);
+  }
+  [[nodiscard]] double clearance(const ArmMoveTerms& of) const {
+    return of.clearance_m.value_or(config.clearance_m);
   }
 
   void stream(Stamp now) {
@@ -314,10 +325,11 @@ struct MoveArm::Impl {
     const auto goals = posturesFor(robot, X_base_flange, state ? state->q : Vector6d::Zero());
     if (goals.empty()) return makeError(ErrorCode::Degenerate, "no arm posture reaches the pose");
     ArmCollision world(robot);
-    world.setScene(obstacles(arena), pose());
+    world.setScene(obstacles(arena), pose(), next_terms.scene);
+    world.setCarried(next_terms.carried);
     std::string nearest;
     for (const Vector6d& q : goals) {
-      if (hasRoom(world, q, config.clearance_m, nearest)) return q;
+      if (hasRoom(world, q, clearance(next_terms), nearest)) return q;
     }
     return makeError(ErrorCode::Refused, "the pose is too near: {}", nearest);
   }
@@ -331,6 +343,7 @@ struct MoveArm::Impl {
   PoseSource pose;
   ArmCollision collision;
   ArmPlanner planner;
+  ArmMoveTerms terms, next_terms;  ///< of the move that runs; of those that follow
   Goal goal = Vector6d(Vector6d::Zero());
   Stage stage = Stage::Idle;
   int resumes = 0;
@@ -350,6 +363,8 @@ MoveArm::~MoveArm() = default;
 void MoveArm::setSurroundings(const Surroundings* surroundings) {
   impl_->surroundings = surroundings;
 }
+
+void MoveArm::setTerms(ArmMoveTerms terms) { impl_->next_terms = std::move(terms); }
 
 void MoveArm::startJoints(const Vector6d& q_goal, Stamp now) { impl_->start(q_goal, now); }
 

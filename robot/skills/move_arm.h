@@ -51,6 +51,7 @@ class MoveArm final : public ArmMotion {
   ~MoveArm() override;
   /// From then on each path is held against the live cloud before the arm moves. nullptr: not.
   void setSurroundings(const Surroundings* surroundings);
+  void setTerms(ArmMoveTerms terms) override;
   /// Joint-space move, rad.
   void startJoints(const Vector6d& q_goal, Stamp now) override;
   void startTimed(const Vector6d& q_goal, double duration_s, Stamp now) override;

@@ -12,6 +12,7 @@ namespace {
 constexpr double kMinStep = 0.004;  // m; shortest stride of the path check
 constexpr double kFar_m = 1e3;      // the ground goes on
 constexpr int kFlangeLink = 7;      // what is fixed to the flange, after the six links
+constexpr int kWristTwo = 5;        // the last link that turns against the flange
 
 /// Neighbours touch by design, along the wrist also the neighbours' neighbours. Asked in one order:
 /// false when `first` is the later link.
@@ -71,45 +72,65 @@ ArmCollision::ArmCollision(const RobotGeometry& robot)
   for (const BoxConfig& box : robot.body) {
     body_.push_back(makeBox(box.center.pose(), sizeOf(box), box.name));
   }
-  double beyond = 0.0;
-  for (const BoxConfig& box : robot.head) {
+  for (const BoxConfig& box : robot.head)
     head_in_flange_.push_back(makeBox(box.center.pose(), sizeOf(box), box.name));
-    const OrientedBox& added = head_in_flange_.back();
-    beyond = std::max(beyond, added.X_frame_box.translation().norm() + added.half.norm());
-  }
   const std::vector<ArmShapeConfig>& shapes = robot.arm_shapes;
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     for (std::size_t k = 0; k < shapes.size(); ++k)
       if (canMeet(shapes[i].link, shapes[k].link)) self_pairs_.push_back({i, k});
   }
-  // Chain length beyond each joint plus the farthest point of head or hull: an upper bound of any
-  // lever arm.
+  updateReach();
+}
+
+/// Chain length beyond each joint plus the farthest point of head, hull or carried body: an upper
+/// bound of any lever arm.
+void ArmCollision::updateReach() {
+  double beyond = 0.0;
+  const auto extend = [&](const OrientedBox& box) {
+    beyond = std::max(beyond, box.X_frame_box.translation().norm() + box.half.norm());
+  };
+  for (const OrientedBox& part : head_in_flange_) extend(part);
+  if (carried_in_flange_) extend(*carried_in_flange_);
   for (int i = 5; i >= 0; --i) {
     const auto k = static_cast<std::size_t>(i);
-    for (const ArmShapeConfig& shape : shapes) {
+    for (const ArmShapeConfig& shape : robot_.arm_shapes) {
       const Capsule c = shape.capsule();
       if (shape.link == i + 1)
         beyond = std::max(beyond, std::max(c.a.norm(), c.b.norm()) + c.radius);
     }
-    beyond += std::hypot(robot.arm.a[k], i == 0 ? 0.0 : robot.arm.d[k]);
+    beyond += std::hypot(robot_.arm.a[k], i == 0 ? 0.0 : robot_.arm.d[k]);
     reach_[i] = beyond;
   }
 }
 
-void ArmCollision::setScene(const std::vector<BoxConfig>& boxes_map, const Pose2& X_map_base) {
+void ArmCollision::setScene(const std::vector<BoxConfig>& boxes_map, const Pose2& X_map_base,
+                            const ArmScene& more) {
   scene_.clear();
+  touchable_.clear();
+  const auto may = [&](const std::string& name) {
+    return std::find(more.touchable.begin(), more.touchable.end(), name) != more.touchable.end();
+  };
+  const auto add = [&](const OrientedBox& box) {
+    (may(box.name) ? touchable_ : scene_).push_back(box);
+  };
   const Eigen::Isometry3d X_base_map = toIsometry(inverse(X_map_base));
-  for (const BoxConfig& box : boxes_map) {
-    scene_.push_back(makeBox(X_base_map * box.center.pose(), sizeOf(box), box.name));
-  }
+  for (const BoxConfig& box : boxes_map)
+    add(makeBox(X_base_map * box.center.pose(), sizeOf(box), box.name));
+  for (const OrientedBox& box : more.boxes) add(box);
+  ground_touchable_ = may(kGroundName);
 }
 
-void ArmCollision::testBoxes(Query& query, const std::vector<OrientedBox>& boxes,
-                             bool of_base) const {
+void ArmCollision::setCarried(const std::optional<OrientedBox>& X_flange_box) {
+  carried_in_flange_ = X_flange_box;
+  updateReach();
+}
+
+void ArmCollision::testBoxes(Query& query, const std::vector<OrientedBox>& boxes, Of of) const {
   for (const OrientedBox& box : boxes) {
     if (query.blocked()) return;
     for (std::size_t i = 0; i < query.links.size(); ++i)
-      if (!of_base || !standsStill(i)) query.test(i, robot_.arm_shapes[i], box, 0);
+      if (of != Of::Base || !standsStill(i)) query.test(i, robot_.arm_shapes[i], box, 0);
+    if (of == Of::Touchable) continue;
     for (const OrientedBox& part : query.head) {
       query.test(part.bounds, kFlangeLink, part.name, box.bounds, 0, box.name,
                  [&] { return kiln::distance(part, box); });
@@ -125,14 +146,17 @@ void ArmCollision::testSelf(Query& query) const {
                shapes[b].name,
                [&, a = a, b = b] { return kiln::distance(query.links[a], query.links[b]); });
   }
-  for (const OrientedBox& part : query.head) {
+  for (std::size_t k = 0; k < query.head.size(); ++k) {
+    // The head is built so that it clears the wrist at any angle; a carried body is not.
+    const bool carried = k >= head_in_flange_.size();
     for (std::size_t i = 0; i < query.links.size(); ++i)
-      if (canMeet(shapes[i].link, kFlangeLink)) query.test(i, shapes[i], part, kFlangeLink);
+      if (canMeet(shapes[i].link, kFlangeLink) || (carried && shapes[i].link == kWristTwo))
+        query.test(i, shapes[i], query.head[k], kFlangeLink);
   }
 }
 
 void ArmCollision::testGround(Query& query) const {
-  static const std::string kGround = "ground";
+  static const std::string kGround = kGroundName;
   const Eigen::AlignedBox3d ground(Eigen::Vector3d::Constant(-kFar_m),
                                    Eigen::Vector3d(kFar_m, kFar_m, 0.0));
   const auto test = [&](const Eigen::AlignedBox3d& bounds, int link, const std::string& name) {
@@ -140,6 +164,7 @@ void ArmCollision::testGround(Query& query) const {
   };
   for (std::size_t i = 0; i < query.links.size(); ++i)
     if (!standsStill(i)) test(query.bounds[i], robot_.arm_shapes[i].link, nameOf(i));
+  if (ground_touchable_) return;
   for (const OrientedBox& part : query.head) test(part.bounds, kFlangeLink, part.name);
 }
 
@@ -149,6 +174,8 @@ ArmShapes ArmCollision::shapesAt(const Vector6d& q) const {
   for (const OrientedBox& part : head_in_flange_) {
     out.head.push_back(makeBox(X_base_flange * part.X_frame_box, 2.0 * part.half, part.name));
   }
+  if (const auto& part = carried_in_flange_)
+    out.head.push_back(makeBox(X_base_flange * part->X_frame_box, 2.0 * part->half, part->name));
   return out;
 }
 
@@ -156,9 +183,10 @@ void ArmCollision::evaluate(Query& query, const Vector6d& q) const {
   static_cast<ArmShapes&>(query) = shapesAt(q);
   for (const Capsule& link : query.links) query.bounds.push_back(boundsOf(link));
   testGround(query);
-  testBoxes(query, body_, true);
+  testBoxes(query, body_, Of::Base);
   testSelf(query);
-  testBoxes(query, scene_, false);
+  testBoxes(query, scene_, Of::Scene);
+  testBoxes(query, touchable_, Of::Touchable);
 }
 
 Clearance ArmCollision::clearance(const Vector6d& q, double interest_m) const {

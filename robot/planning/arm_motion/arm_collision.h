@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,8 +18,18 @@ struct Clearance {
 
 /// Arm and head at one posture, in base.
 struct ArmShapes {
-  std::vector<Capsule> links;  ///< as RobotGeometry::arm_shapes
-  std::vector<OrientedBox> head;
+  std::vector<Capsule> links;     ///< as RobotGeometry::arm_shapes
+  std::vector<OrientedBox> head;  ///< as RobotGeometry::head, then what is carried
+};
+
+inline constexpr const char* kGroundName = "ground";  ///< among the names of what may be touched
+
+/// What stands around the arm beside the arena, as one motion has to see it.
+struct ArmScene {
+  std::vector<OrientedBox> boxes;  ///< in base: what moves with it, and what was measured from it
+  /// Names of boxes, or kGroundName, that head and carried body may touch on this motion: what is
+  /// taken, and what it lies on or is set against. The other links keep clear of them all the same.
+  std::vector<std::string> touchable;
 };
 
 /// The arm as the capsules and the head as the boxes of the robot's description, against the
@@ -29,7 +40,11 @@ class ArmCollision {
   explicit ArmCollision(const RobotGeometry& robot);
   /// Replaces the surroundings: boxes in map (ArenaMap walls, furniture, fire furniture), seen from
   /// X_map_base.
-  void setScene(const std::vector<BoxConfig>& boxes_map, const Pose2& X_map_base);
+  void setScene(const std::vector<BoxConfig>& boxes_map, const Pose2& X_map_base,
+                const ArmScene& more = {});
+  /// A box fixed to the flange from now on, in flange axes: it counts as a part of the head, and
+  /// keeps clear of the wrist as well. nullopt: nothing is carried.
+  void setCarried(const std::optional<OrientedBox>& X_flange_box);
   /// Clearance of one posture. Distances above `interest_m` may be reported too small (never too
   /// large).
   [[nodiscard]] Clearance clearance(const Vector6d& q, double interest_m = 0.2) const;
@@ -48,14 +63,19 @@ class ArmCollision {
 
  private:
   struct Query;
-  void testBoxes(Query& query, const std::vector<OrientedBox>& boxes, bool of_base) const;
+  enum class Of { Base, Scene, Touchable };
+  void testBoxes(Query& query, const std::vector<OrientedBox>& boxes, Of of) const;
   void testSelf(Query& query) const;
   void testGround(Query& query) const;
   void evaluate(Query& query, const Vector6d& q) const;
+  void updateReach();
 
   RobotGeometry robot_;
   Eigen::Isometry3d X_base_armbase_;
   std::vector<OrientedBox> body_, scene_, head_in_flange_;
+  std::vector<OrientedBox> touchable_;  ///< of the scene
+  bool ground_touchable_ = false;
+  std::optional<OrientedBox> carried_in_flange_;
   std::vector<std::array<std::size_t, 2>> self_pairs_;  ///< of links that can meet
   Vector6d reach_;  ///< farthest point of arm or head from each joint's axis, m
 };

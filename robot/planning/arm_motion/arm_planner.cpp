@@ -9,6 +9,16 @@ namespace {
 /// Uniform in [0, 1), the same on every platform (std distributions are not).
 double unit(std::mt19937& random) { return static_cast<double>(random()) / 4294967296.0; }
 
+constexpr double kSameTilt_rad = 0.05;
+
+/// Axes 2, 3 and 4 of the arm are parallel and level: their sum and joint 6 are the flange's tilt.
+double levelSum(const Vector6d& q) { return q[1] + q[2] + q[3]; }
+
+bool sameTilt(const Vector6d& a, const Vector6d& b) {
+  return std::abs(levelSum(a) - levelSum(b)) < kSameTilt_rad &&
+         std::abs(a[5] - b[5]) < kSameTilt_rad;
+}
+
 }  // namespace
 
 void ArmPlanner::Config::visit(ConfigArchive& a) {
@@ -26,8 +36,8 @@ bool ArmPlanner::free(const Vector6d& a, const Vector6d& b) const {
   return collision_.pathIsFree(a, b, clearance_m_);
 }
 
-ArmPlanner::Progress ArmPlanner::start(const Vector6d& q_start,
-                                       const std::vector<Vector6d>& goals) {
+ArmPlanner::Progress ArmPlanner::start(const Vector6d& q_start, const std::vector<Vector6d>& goals,
+                                       const ArmPathDemand& demand) {
   random_.seed(static_cast<std::uint32_t>(config_.seed));
   iterations_ = 0;
   grow_start_ = true;
@@ -35,11 +45,14 @@ ArmPlanner::Progress ArmPlanner::start(const Vector6d& q_start,
   from_goal_.clear();
   path_.clear();
   // A start that is a little too near to something may leave, but not come nearer.
-  clearance_m_ = std::min(config_.clearance_m, collision_.distance(q_start) - 1e-3);
+  clearance_m_ = std::min(demand.clearance_m.value_or(config_.clearance_m),
+                          collision_.distance(q_start) - 1e-3);
+  keep_tilt_ = demand.keep_tilt;
   if (clearance_m_ < 0.0 || goals.empty()) return Progress::Failed;
   low_ = (q_start.array() - M_PI).cwiseMax(-limit_.array());
   high_ = (q_start.array() + M_PI).cwiseMin(limit_.array());
   for (const Vector6d& goal : goals) {
+    if (keep_tilt_ && !sameTilt(q_start, goal)) continue;
     low_ = low_.cwiseMin(goal);
     high_ = high_.cwiseMax(goal);
     from_goal_.push_back({goal, -1});
@@ -48,12 +61,18 @@ ArmPlanner::Progress ArmPlanner::start(const Vector6d& q_start,
       return Progress::Found;
     }
   }
-  return Progress::Running;
+  return from_goal_.empty() ? Progress::Failed : Progress::Running;
 }
 
 Vector6d ArmPlanner::sample() {
   Vector6d q;
-  for (int i = 0; i < 6; ++i) q[i] = low_[i] + unit(random_) * (high_[i] - low_[i]);
+  do {
+    for (int i = 0; i < 6; ++i) q[i] = low_[i] + unit(random_) * (high_[i] - low_[i]);
+    if (!keep_tilt_) return q;
+    const Vector6d& start = from_start_.front().q;
+    q[3] = levelSum(start) - q[1] - q[2];
+    q[5] = start[5];
+  } while (q[3] < low_[3] || q[3] > high_[3]);
   return q;
 }
 

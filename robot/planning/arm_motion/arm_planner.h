@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -8,6 +9,14 @@
 #include "robot/planning/arm_motion/arm_collision.h"
 
 namespace kiln {
+
+/// What one question asks beyond its goals.
+struct ArmPathDemand {
+  std::optional<double> clearance_m;  ///< instead of the planner's own
+  /// The flange keeps its tilt against the base's Z all the way, and turns about it alone: joint 6
+  /// stands, joint 4 makes good what 2 and 3 turn. Goals that tilt it otherwise are left out.
+  bool keep_tilt = false;
+};
 
 /// Joint-space path around obstacles: the straight move if it is free, else RRT-Connect (Kuffner
 /// and LaValle 2000) from the start to several goals at once, then random short cuts. Done in
@@ -28,7 +37,8 @@ class ArmPlanner {
   /// @param collision must outlive the planner.
   ArmPlanner(const Config& config, const RobotGeometry& robot, const ArmCollision& collision);
   /// @param goals  postures free of collision, best first. Tries the straight moves at once.
-  Progress start(const Vector6d& q_start, const std::vector<Vector6d>& goals);
+  Progress start(const Vector6d& q_start, const std::vector<Vector6d>& goals,
+                 const ArmPathDemand& demand = {});
   /// Up to `iterations` more of the search.
   Progress advance(int iterations);
   /// Corner postures, start and goal included. @pre Found.
@@ -53,6 +63,7 @@ class ArmPlanner {
   Vector6d low_ = Vector6d::Zero(), high_ = Vector6d::Zero(), limit_;
   const ArmCollision& collision_;
   double clearance_m_ = 0.0;
+  bool keep_tilt_ = false;
   std::mt19937 random_;
   Tree from_start_, from_goal_;
   bool grow_start_ = true;

@@ -238,6 +238,41 @@ TEST_F(ArmControllerTest, AForceAtRestThatIsAContactIsNotZeroedAway) {
   EXPECT_EQ(arm.zeroings(), 1);
 }
 
+TEST_F(ArmControllerTest, TellsWhatHangsOnTheHeadWithTheHeadAlsoAfterTheDeviceWasAway) {
+  idle(0.6);
+  controller.carry({1.0, {0, 0.22, 0.09}});
+  idle(0.05);
+  ASSERT_EQ(arm.payloads().size(), 2U);
+  EXPECT_NEAR(arm.payloads()[1].mass_kg, 6.0, 1e-12);
+  EXPECT_LT((arm.payloads()[1].p_flange_com - Eigen::Vector3d(0, 0.22 / 6.0, 0.09)).norm(), 1e-12);
+  idle(1.0);
+  EXPECT_EQ(arm.payloads().size(), 2U) << "said once";
+  arm.freezeState(true);
+  idle(1.2);
+  arm.freezeState(false);
+  idle(0.6);
+  EXPECT_NEAR(arm.payloads().back().mass_kg, 6.0, 1e-12);
+  controller.carry({});
+  idle(0.05);
+  EXPECT_EQ(arm.payloads().back().mass_kg, ArmController::Config{}.payload_kg);
+}
+
+TEST_F(ArmControllerTest, ZeroesTheForceWhenAskedAtRestAndSaysSo) {
+  idle(0.6);
+  const auto before = controller.tracking().zeroings;
+  arm.setForce({0, 6, -5});  // it has drifted
+  controller.zeroForce();
+  idle(0.1);
+  EXPECT_EQ(controller.tracking().zeroings, before);
+  idle(0.6);
+  EXPECT_EQ(controller.tracking().zeroings, before + 1);
+  EXPECT_LT(controller.tracking().contact_force_n, 0.1);
+  arm.setForce({0, 6, -45});
+  controller.zeroForce();
+  idle(2.0);
+  EXPECT_EQ(controller.tracking().zeroings, before + 1) << "that is a contact";
+}
+
 TEST_F(ArmControllerTest, StopsWhenTheStateIsStale) {
   stream(0.4, 1.0, 0.8);
   arm.freezeState(true);

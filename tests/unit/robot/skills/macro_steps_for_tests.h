@@ -7,6 +7,7 @@ namespace kiln {
 /// An arm whose every motion takes half a second, or fails.
 class ScriptedArm final : public ArmMotion {
  public:
+  void setTerms(ArmMoveTerms) override {}
   void startJoints(const Vector6d& q, Stamp now) override {
     q_goal = q;
     begin(now);

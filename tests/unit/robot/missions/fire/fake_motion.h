@@ -14,6 +14,7 @@ namespace kiln {
 class FakeArmMotion final : public ArmMotion {
  public:
   FakeArmMotion(const RobotGeometry& robot, FakeArm& device) : robot_(robot), device_(device) {}
+  void setTerms(ArmMoveTerms) override {}
 
   void startJoints(const Vector6d& q_goal, Stamp now) override;
   /// At the fake's own speed, whatever the duration.

@@ -100,6 +100,7 @@ void FireRig::build() {
                              [this] { return base.pose(); },
                              {},
                              [](Stamp) { return std::nullopt; },
+                             [](Stamp) { return std::nullopt; },
                              [](const ThermalImagePtr&) {},
                              [](const MissionDetail&) {}},
                             sweep,

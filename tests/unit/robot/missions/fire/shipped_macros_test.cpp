@@ -100,6 +100,7 @@ class ShippedMacros : public ::testing::Test {
                         [this] { return base; },
                         {},
                         [](Stamp) { return std::nullopt; },
+                        [](Stamp) { return std::nullopt; },
                         [](const ThermalImagePtr&) {},
                         [](const MissionDetail&) {}},
                        sweep,

@@ -122,6 +122,54 @@ TEST(ArmCollision, SceneBoxesAreSeenFromTheBase) {
   EXPECT_GT(collision.distance(q), 0.03);
 }
 
+TEST(ArmCollision, WhatIsCarriedCountsAsAPartOfTheHead) {
+  const RobotGeometry robot = loadBob();
+  ArmCollision collision(robot);
+  const Vector6d q = RobotGeometry::radians(robot.q_drive_deg);
+  const Eigen::Isometry3d X_flange_box =
+      robot.X_flange_tool.pose() * Eigen::Translation3d(0, 0, 0.1);
+  const Eigen::Vector3d size(0.6, 0.2, 0.2);
+  const OrientedBox load = makeBox(X_flange_box, size, "load");
+  ArmScene scene;
+  scene.boxes = {makeBox(robot.X_base_flange(q) * X_flange_box * Eigen::Translation3d(0.36, 0, 0),
+                         {0.1, 0.1, 0.1}, "crate")};
+  collision.setScene({}, {}, scene);
+  EXPECT_GT(collision.distance(q), 0.03) << "beside the bare head there is room";
+  const double bound = collision.motionBound(Vector6d::Ones());
+  collision.setCarried(load);
+  EXPECT_GT(collision.motionBound(Vector6d::Ones()), bound);
+  EXPECT_NEAR(collision.clearance(q).distance_m, 0.01, 1e-3);
+  EXPECT_EQ(collision.clearance(q).what, "load to crate");
+  Vector6d turned = q;
+  turned[5] += 1.0;
+  EXPECT_FALSE(collision.pathIsFree(q, turned, 0.03));
+  EXPECT_EQ(collision.shapesAt(q).head.size(), robot.head.size() + 1);
+  collision.setCarried(std::nullopt);
+  EXPECT_GT(collision.distance(q), 0.03);
+}
+
+TEST(ArmCollision, HeadAndLoadMayTouchWhatIsNamedAndTheArmMayNot) {
+  const RobotGeometry robot = loadBob();
+  ArmCollision collision(robot);
+  const Vector6d q = RobotGeometry::radians(robot.q_drive_deg);
+  collision.setCarried(makeBox(robot.X_flange_tool.pose() * Eigen::Translation3d(0, 0, 0.1),
+                               {0.3, 0.2, 0.2}, "load"));
+  const auto around = [&](const Eigen::Vector3d& p_base, std::vector<std::string> touchable) {
+    ArmScene scene;
+    scene.boxes = {makeBox(Eigen::Isometry3d(Eigen::Translation3d(p_base)), {0.1, 0.1, 0.1}, "it")};
+    scene.touchable = std::move(touchable);
+    collision.setScene({}, {}, scene);
+    return collision.distance(q);
+  };
+  const Eigen::Isometry3d X_base_tool = robot.X_base_flange(q) * robot.X_flange_tool.pose();
+  const Eigen::Vector3d below = X_base_tool * Eigen::Vector3d(0, 0, 0.24);
+  EXPECT_LT(around(below, {}), 0.0);
+  EXPECT_GT(around(below, {"it"}), 0.01);
+  EXPECT_LT(around(below, {"another"}), 0.0);
+  const std::vector<Capsule> links = collision.shapesAt(q).links;
+  EXPECT_LT(around(links[4].a, {"it"}), 0.0) << "the forearm touches nothing";
+}
+
 TEST(ArmCollision, NoPointMovesFartherThanTheMotionBound) {
   const RobotGeometry robot = loadBob();
   const ArmCollision collision(robot);

@@ -85,5 +85,36 @@ TEST_F(ArmPlannerTest, DoesNotStartFromATouchingPosture) {
             ArmPlanner::Progress::Failed);
 }
 
+/// A load that must not be tilted: the way around the post keeps the flange's tilt.
+TEST_F(ArmPlannerTest, KeepsTheTiltAllTheWayWhenAsked) {
+  putPost();
+  Vector6d goal = home;
+  goal[0] -= 1.9;
+  ArmPlanner planner({}, robot, collision);
+  const ArmPathDemand demand{std::nullopt, true};
+  ArmPlanner::Progress progress = planner.start(home, {goal}, demand);
+  while (progress == ArmPlanner::Progress::Running) progress = planner.advance(100);
+  ASSERT_EQ(progress, ArmPlanner::Progress::Found);
+  ASSERT_GT(planner.path().size(), 2u);
+  expectFree(planner.path());
+  const Eigen::Vector3d up = robot.X_base_flange(home).linear().row(2);
+  for (std::size_t k = 1; k < planner.path().size(); ++k) {
+    for (int n = 0; n <= 20; ++n) {
+      const Vector6d q =
+          planner.path()[k - 1] + (planner.path()[k] - planner.path()[k - 1]) * (n / 20.0);
+      const Eigen::Vector3d now = robot.X_base_flange(q).linear().row(2);
+      EXPECT_LT((now - up).norm(), 1e-6);
+    }
+  }
+}
+
+TEST_F(ArmPlannerTest, AGoalOfAnotherTiltIsNoGoalThen) {
+  Vector6d goal = home;
+  goal[5] += 0.5;
+  ArmPlanner planner({}, robot, collision);
+  EXPECT_EQ(planner.start(home, {goal}), ArmPlanner::Progress::Found);
+  EXPECT_EQ(planner.start(home, {goal}, {std::nullopt, true}), ArmPlanner::Progress::Failed);
+}
+
 }  // namespace
 }  // namespace kiln

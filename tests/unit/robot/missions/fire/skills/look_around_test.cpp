@@ -8,6 +8,7 @@ namespace {
 /// Does what it is told at the next poll; remembers the orders.
 class ObedientArm final : public ArmMotion {
  public:
+  void setTerms(ArmMoveTerms) override {}
   void startJoints(const Vector6d&, Stamp) override { orders.push_back("joints"); }
   void startTimed(const Vector6d&, double, Stamp) override { orders.push_back("timed"); }
   void startPose(const Eigen::Isometry3d& X, Stamp) override {

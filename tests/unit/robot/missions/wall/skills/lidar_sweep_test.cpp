@@ -12,6 +12,7 @@ namespace {
 /// Takes half a second to the beginning and the wanted time for the sweep; fails when told.
 class TimedArm final : public ArmMotion {
  public:
+  void setTerms(ArmMoveTerms) override {}
   void startJoints(const Vector6d&, Stamp now) override { begin(0.5, now); }
   void startTimed(const Vector6d&, double duration_s, Stamp now) override {
     begin(duration_s, now);
