@@ -6,6 +6,9 @@
 
 namespace kiln {
 
+/// Of the head's camera, a Logitech Brio at 16:9: 78 deg across the diagonal.
+inline constexpr double kHeadCameraHfov_deg = 70.4;
+
 /// Pinhole camera. Pixel (0, 0) is the centre of the top-left pixel; camera axes X right, Y down, Z
 /// viewing.
 struct CameraModel {

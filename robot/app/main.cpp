@@ -111,18 +111,22 @@ std::string defaultStateFolder() {
 
 Result<RobotSettings> loadSettings(const Arguments& a) {
   RobotSettings settings;
-  std::string file = a.config;
-  if (file.empty()) {
-    auto found = resourcePath("config/robot.yaml");
-    if (!found) return tl::make_unexpected(found.error());
-    file = *found;
-  }
-  if (auto loaded = loadConfig(file, settings); !loaded) return tl::make_unexpected(loaded.error());
-  for (const std::string& override_ : a.overrides)
-    if (auto set = overrideConfig(override_, settings); !set)
-      return tl::make_unexpected(set.error());
-  const std::string method = findMission(a.robot.mission)->default_localization;
-  if (!method.empty()) settings.localization.method = method;
+  const auto set = [&settings](const std::vector<std::string>& keys) -> Result<void> {
+    for (const std::string& key : keys)
+      if (auto done = overrideConfig(key, settings); !done) return done;
+    return {};
+  };
+  const auto shipped = resourcePath("config/robot.yaml");
+  if (!shipped && a.config.empty()) return tl::make_unexpected(shipped.error());
+  if (a.config.empty())
+    if (auto loaded = loadConfig(*shipped, settings); !loaded)
+      return tl::make_unexpected(loaded.error());
+  if (auto done = set(findMission(a.robot.mission)->settings); !done)
+    return tl::make_unexpected(done.error());
+  if (!a.config.empty())
+    if (auto loaded = loadConfig(a.config, settings); !loaded)
+      return tl::make_unexpected(loaded.error());
+  if (auto done = set(a.overrides); !done) return tl::make_unexpected(done.error());
   if (!a.localization.empty()) settings.localization.method = a.localization;
   settings.flat_ground = settings.flat_ground || a.flat_ground;
   return settings;

@@ -6,6 +6,7 @@
 
 #include "common/config/resources.h"
 #include "common/core/log.h"
+#include "common/geom/frames.h"
 #include "common/robot_model/robot_calibration.h"
 #include "robot/app/robot_reporting.h"
 #include "robot/app/safety_files.h"
@@ -167,6 +168,7 @@ Result<void> Robot::Impl::open(Executor& executor) {
       {body.clock, executor, body.arena, body.robot, body.belief, body.drive, body.move_arm,
        body.devices.arm, body.pumps, body.pose, [this] { return intake.surroundings().scans(); },
        [this](Stamp stamp) { return intake.flangeAt(stamp, localization.tracked()); },
+       [this](Stamp stamp) { return intake.bodyAt(stamp, localization.tracked()); },
        [&telemetry](const ThermalImagePtr& image) { telemetry.publish(image); },
        [&telemetry](MissionDetail detail) { telemetry.publish(std::move(detail)); }});
   if (!made) return made;
@@ -182,7 +184,10 @@ void Robot::Impl::start(Executor& executor) {
   reporting.open();
   localization.reset(body.options.start_pose.value_or(body.arena.start.pose()), now);
   intake.start([this](ThermalImagePtr image) { mission.mission().onThermal(std::move(image)); },
-               [this](RgbImagePtr image) { reporting.telemetry().onPicture(std::move(image)); });
+               [this](const RgbImagePtr& image) {
+                 if (image->frame == frames::kRgb) mission.mission().onPicture(image);
+                 reporting.telemetry().onPicture(image);
+               });
   executor.every(fromSeconds(1.0 / body.settings.arm.servo_rate_hz), "control", kPriorityControl,
                  [this](Stamp t) {
                    const auto wheels = body.devices.base.state();  // of which the odometry is made

@@ -136,7 +136,7 @@ Scene RobotReporting::scene(Stamp now) const {
 }
 
 void RobotReporting::publish(Stamp now) {
-  parts_.intake.runCameraOnDemand(parts_.link);
+  parts_.intake.runCameraOnDemand(parts_.link, parts_.mission.mission().wantsHeadCamera());
   const MissionHost& host = parts_.mission.host();
   if (telemetry_.fsmDue(now, host.fsm().step)) telemetry_.publish(host.fsm());
   if (telemetry_.statusDue(now)) {

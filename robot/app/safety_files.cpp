@@ -5,8 +5,10 @@
 
 namespace kiln {
 Result<ArenaMap> loadArena(const std::string& resource) {
-  auto arena = loadComplete<ArenaMap>(resource, {"start", "approach", "walls", "furniture",
-                                                 "doorway", "entry_path", "sites", "geofence"});
+  // In the open there is nothing to run into and no door, which the file then says.
+  auto arena =
+      loadComplete<ArenaMap>(resource, {"start", "approach", "doorway", "sites", "geofence"},
+                             {"walls", "furniture", "entry_path"});
   if (!arena) return arena;
   if (auto furnished = furnish(*arena); !furnished) return tl::make_unexpected(furnished.error());
   return arena;

@@ -66,24 +66,31 @@ void SensorIntake::place(PerceptionJobs::ScanResult& result, const TrackedPose& 
                      std::move(result.lidar_track)});
 }
 
-std::optional<Eigen::Isometry3d> SensorIntake::flangeAt(Stamp stamp,
-                                                        const TrackedPose& tracked) const {
+std::optional<BodyPose> SensorIntake::bodyAt(Stamp stamp, const TrackedPose& tracked) const {
   const auto sample = history_.at(stamp);
   if (!sample) return std::nullopt;
-  return toIsometry(tracked.X_map_odom * sample->X_odom_base) *
-         body_.robot.X_base_flange(sample->q);
+  return BodyPose{sample->X_odom_base, tracked.X_map_odom * sample->X_odom_base,
+                  body_.robot.X_base_flange(sample->q)};
 }
 
-void SensorIntake::runCameraOnDemand(OperatorLink* link) {
+std::optional<Eigen::Isometry3d> SensorIntake::flangeAt(Stamp stamp,
+                                                        const TrackedPose& tracked) const {
+  const auto body = bodyAt(stamp, tracked);
+  if (!body) return std::nullopt;
+  return toIsometry(body->X_map_base) * body->X_base_flange;
+}
+
+void SensorIntake::runCameraOnDemand(OperatorLink* link, bool mission_looks) {
   const std::array cameras{std::pair{body_.devices.operator_camera, frames::kOperatorCamera},
                            std::pair{body_.devices.head_camera, frames::kRgb}};
-  if (!link || (!cameras[0].first && !cameras[1].first)) return;
+  if (!cameras[0].first && !cameras[1].first) return;
   const RunRecorder* recorder = body_.options.recorder;
-  if (recorder) link->keepPictures(recorder->config().pictures && recorder->on());
+  if (recorder && link) link->keepPictures(recorder->config().pictures && recorder->on());
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     const auto& [camera, frame] = cameras[i];
     if (!camera) continue;
-    const bool wanted = link->wanted(frame);
+    const bool wanted =
+        (link && link->wanted(frame)) || (mission_looks && camera == body_.devices.head_camera);
     if (wanted == camera_runs_[i]) continue;
     camera_runs_[i] = wanted;
     if (wanted)

@@ -7,6 +7,7 @@
 #include "robot/app/perception_jobs.h"
 #include "robot/app/robot_body.h"
 #include "robot/app/state_history.h"
+#include "robot/missions/common/mission_parts.h"
 
 namespace kiln {
 
@@ -38,12 +39,13 @@ class SensorIntake {
   void place(PerceptionJobs::ScanResult& result, const TrackedPose& tracked);
   void tick() { surroundings_.tick(body_.base.tracking().X_odom_base); }
   /// Pictures cost the robot and the link more than everything else together: taken only while
-  /// somebody watches.
-  void runCameraOnDemand(OperatorLink* link);
+  /// somebody watches, or the mission looks through the head camera.
+  void runCameraOnDemand(OperatorLink* link, bool mission_looks);
 
   /// Where the flange was in map at a stamp of the last seconds.
   [[nodiscard]] std::optional<Eigen::Isometry3d> flangeAt(Stamp stamp,
                                                           const TrackedPose& tracked) const;
+  [[nodiscard]] std::optional<BodyPose> bodyAt(Stamp stamp, const TrackedPose& tracked) const;
   [[nodiscard]] const PerceptionJobs& perception() const { return perception_; }
   [[nodiscard]] LiveSurroundings& surroundings() { return surroundings_; }
 

@@ -92,6 +92,13 @@ const std::vector<Evaluation>& evaluations() {
        evaluateBricks,
        {1, 100},
        {kPileWorld, kNeededCells, kCalibrate}},
+      {"wall-survey",
+       "the wall mission as far as it goes: pile and marker as found in the lab's world, against "
+       "the truth",
+       evaluateWallSurvey,
+       {1, 10, 1, "", "", "", false},
+       {},
+       {"wall", judgeWall}},
       {"calibrate",
        "finds the mounting of LiDAR and thermal camera by moving the arm; --out FILE is for "
        "kiln-robotd --calibration",

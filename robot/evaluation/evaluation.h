@@ -70,6 +70,9 @@ struct Evaluation {
 [[nodiscard]] Result<EvaluationResult> evaluateResume(const SweepOptions& options);
 [[nodiscard]] Result<EvaluationResult> evaluateBuildOrder(const SweepOptions& options);
 [[nodiscard]] Result<EvaluationResult> evaluateBricks(const SweepOptions& options);
+[[nodiscard]] std::string judgeWall(const nlohmann::json& robot, const nlohmann::json& truth,
+                                    nlohmann::json& report);
+[[nodiscard]] Result<EvaluationResult> evaluateWallSurvey(const SweepOptions& options);
 [[nodiscard]] Result<EvaluationResult> calibrateSensors(const SweepOptions& options);
 [[nodiscard]] Result<EvaluationResult> calibrateSpray(const SweepOptions& options);
 

@@ -198,6 +198,7 @@ int main(int argc, char** argv) {
     if (!*sub) continue;
     SweepOptions options = sweep;
     options.first_seed = evaluation->defaults.first_seed;
+    options.calibrate &= evaluation->defaults.calibrate;
     options.last_seed = evaluation->defaults.last_seed;
     options.jobs = jobs > 0 ? jobs : evaluation->defaults.jobs;
     if (!parseSeeds(seeds, options))

@@ -159,6 +159,8 @@ const MissionRule* missionRule(const std::string& mission) {
 Result<MissionRun> runMission(const MissionRunOptions& asked) {
   MissionRunOptions options = asked;
   if (options.mission.empty()) options.mission = missionNames().front();
+  const MissionKind* kind = findMission(options.mission);
+  if (options.world.empty() && kind) options.world = kind->default_world;
   const Folder folder(options);
   const SteadyClock clock;
   const Stamp begin = clock.now();

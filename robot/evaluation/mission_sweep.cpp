@@ -22,7 +22,7 @@ Result<MissionRun> runCalibrated(MissionRunOptions run, const SweepOptions& opti
 
 }  // namespace
 
-std::vector<SeedResult> runSeeds(const SweepOptions& options) {
+std::vector<SeedResult> runSeeds(const SweepOptions& options, const std::string& mission) {
   const int count = std::max(0, options.last_seed - options.first_seed + 1);
   std::vector<SeedResult> results(static_cast<std::size_t>(count));
   std::atomic<int> next{0};
@@ -31,6 +31,7 @@ std::vector<SeedResult> runSeeds(const SweepOptions& options) {
     workers.emplace_back([&] {
       for (int i = next++; i < count; i = next++) {
         MissionRunOptions run;
+        run.mission = mission;
         run.seed = options.first_seed + i;
         run.trace = true;
         run.world = options.world;

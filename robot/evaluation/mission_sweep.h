@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "robot/evaluation/evaluation.h"
@@ -12,9 +13,11 @@ struct SeedResult {
   Result<MissionRun> run = MissionRun{};
 };
 
-/// Runs the fire mission on all seeds in lockstep, with the truth trace, `options.jobs` at a time;
-/// results in seed order whatever the timing. With `options.calibrate` each seed's robot goes
-/// through the calibration yard first, or takes what it found there before (yard_calibration.h).
-[[nodiscard]] std::vector<SeedResult> runSeeds(const SweepOptions& options);
+/// Runs a mission (empty: the first of the catalogue) on all seeds in lockstep, with the truth
+/// trace, `options.jobs` at a time; results in seed order whatever the timing. With
+/// `options.calibrate` each seed's robot goes through the calibration yard first, or takes what it
+/// found there before (yard_calibration.h).
+[[nodiscard]] std::vector<SeedResult> runSeeds(const SweepOptions& options,
+                                               const std::string& mission = "");
 
 }  // namespace kiln

@@ -1,20 +1,13 @@
 #include <fmt/ranges.h>
 
 #include "robot/missions/catalog.h"
-#include "robot/scene/wall_site_map.h"
 
 namespace kiln {
 namespace {
 
-/// The site of the wall stands in arenas before its mission stands in the catalogue.
 Result<SiteFixtures> fixturesOf(const ArenaMap& arena, const SiteConfig& site) {
   const MissionKind* kind = findMission(site.mission);
   if (kind && kind->site) return kind->site(arena);
-  if (site.mission == kWallSite) {
-    const auto wall = loadWallSite(arena);
-    if (!wall) return tl::make_unexpected(wall.error());
-    return wall->fixtures();
-  }
   return makeError(ErrorCode::InvalidInput,
                    "arena '{}': the site {} belongs to mission '{}', which has none here: what "
                    "stands there would not be an obstacle; take it out or name it furniture",

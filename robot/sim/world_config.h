@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "common/geom/camera_model.h"
 #include "common/robot_model/robot_geometry.h"
 #include "robot/sim/wall_config.h"
 
@@ -119,8 +120,10 @@ struct CameraConfig {
   double noise = 2.0;  ///< grey levels
   bool auto_exposure = false;
   void visit(ConfigArchive& a);
-  /// The head's Brio: 78 deg across the diagonal, an exposure of its own.
-  [[nodiscard]] static CameraConfig head() { return {10.0, 1280, 720, 70.4, 2.0, true}; }
+  /// The head's Brio, with an exposure of its own.
+  [[nodiscard]] static CameraConfig head() {
+    return {10.0, 1280, 720, kHeadCameraHfov_deg, 2.0, true};
+  }
 };
 
 /// Where the sun stands; above the horizon.

@@ -121,7 +121,7 @@ TestRobot::Impl::Impl(TestRobot& robot)
       *settings_.missions.find("fire"), "test-uuid",
       {clock_, executor_, arena_, geometry_, belief_, drive_, move_arm_, arm_device_, pumps_,
        [this] { return pose(); }, [this] { return lidarScans(); },
-       [this](Stamp stamp) { return flangeAt(stamp); },
+       [this](Stamp stamp) { return flangeAt(stamp); }, [](Stamp) { return std::nullopt; },
        [this](const ThermalImagePtr& image) { thermal_ = image; },
        [this](MissionDetail detail) {
          stream_ = std::make_shared<const MissionDetail>(std::move(detail));

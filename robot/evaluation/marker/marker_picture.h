@@ -12,7 +12,7 @@ namespace kiln {
 
 /// What the head camera makes of light, drawn by seed.
 struct HeadCamera {
-  double hfov_deg = 78.0;
+  double hfov_deg = kHeadCameraHfov_deg;
   double blur_px = 0.6;                               ///< sigma of the optics
   double exposure_stops = 0.0;                        ///< off what its automatic would choose
   Eigen::Vector3f balance = Eigen::Vector3f::Ones();  ///< gains of the white balance

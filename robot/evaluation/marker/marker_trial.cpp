@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/core/units.h"
+#include "robot/missions/wall/looking_posture.h"
 
 namespace kiln {
 namespace {
@@ -21,13 +22,6 @@ Eigen::Isometry3d perturbed(const Eigen::Isometry3d& X, std::mt19937_64& random)
 }
 
 }  // namespace
-
-Vector6d lookingPosture(double pan_rad, double tilt_rad) {
-  Vector6d q;
-  q << 180.0 * kDeg + pan_rad, -95.0 * kDeg, 25.0 * kDeg, 70.0 * kDeg + tilt_rad, 90.0 * kDeg,
-      180.0 * kDeg;
-  return q;
-}
 
 MarkerTrial::MarkerTrial(const MarkerYard& yard, const RobotGeometry& robot, std::uint64_t seed)
     : yard_(yard), nominal_(robot), painter_(yard.scene, robot, yard.camera, seed) {

@@ -33,8 +33,4 @@ class MarkerTrial {
   double odometry_scale_ = 1.0, odometry_turn_rad_ = 0.0, odometry_yaw_per_m_ = 0.0;
 };
 
-/// The head as a search holds it: the arm stretched upwards, camera about 1.75 m above the ground.
-/// @param pan, tilt  of the viewing direction: about Z of base; downwards.
-[[nodiscard]] Vector6d lookingPosture(double pan_rad, double tilt_rad);
-
 }  // namespace kiln

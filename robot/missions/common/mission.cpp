@@ -17,5 +17,6 @@ std::vector<Figure> Mission::figures(Stamp) const { return {}; }
 void Mission::describe(Scene&, Stamp) const {}
 void Mission::report(nlohmann::json&) const {}
 void Mission::onThermal(ThermalImagePtr) {}
+void Mission::onPicture(RgbImagePtr) {}
 
 }  // namespace kiln

@@ -68,6 +68,10 @@ class Mission {
 
   /// A thermal image has arrived; any thread.
   virtual void onThermal(ThermalImagePtr image);
+  /// Whether pictures of the head camera are needed now: they cost so much that it rests else.
+  [[nodiscard]] virtual bool wantsHeadCamera() const { return false; }
+  /// A picture of the head camera has arrived, wanted here or by a station; any thread.
+  virtual void onPicture(RgbImagePtr image);
   /// Frames that its perception could not take.
   [[nodiscard]] virtual std::uint64_t droppedFrames() const { return 0; }
 };

@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "robot/hal/device_set.h"
 #include "robot/missions/common/mission.h"
@@ -17,7 +18,9 @@ struct MissionKind {
   std::string name;           ///< of --mission, and of its section in the robot's configuration
   std::string doc;            ///< for --help
   std::string default_world;  ///< file name in resources/worlds, without .yaml
-  std::string default_localization;  ///< empty: as configured
+  /// What differs from the robot's shipped configuration, as --set takes it. A file that the
+  /// operator names, and --set, come after it.
+  std::vector<std::string> settings;
   std::function<std::unique_ptr<MissionConfig>()> config;
   /// @param config  made by config(). Error: what is wrong with it or with the arena.
   std::function<Result<std::unique_ptr<Mission>>(

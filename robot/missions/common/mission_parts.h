@@ -17,6 +17,13 @@
 
 namespace kiln {
 
+/// Where base and head were at one instant.
+struct BodyPose {
+  Pose2 X_odom_base;  ///< wheel odometry: smooth, drifts
+  Pose2 X_map_base;   ///< the same by the newest localisation
+  Eigen::Isometry3d X_base_flange = Eigen::Isometry3d::Identity();
+};
+
 /// What the robot lends a mission; all of it outlives the mission.
 struct MissionParts {
   const Clock& clock;
@@ -33,6 +40,9 @@ struct MissionParts {
   std::function<std::deque<ScanWindow::Entry>()> scans;
   /// Where the flange was in map at a stamp of the last seconds; nullopt: not known.
   std::function<std::optional<Eigen::Isometry3d>(Stamp)> X_map_flange;
+  /// Both at a stamp of the last seconds; nullopt: not known. Any thread but for X_map_base, which is
+  /// that of the last tick.
+  std::function<std::optional<BodyPose>(Stamp)> body_at;
   /// To the stations and the recording.
   std::function<void(ThermalImagePtr)> publish_thermal;
   std::function<void(MissionDetail)> publish_detail;  ///< on the mission stream

@@ -51,7 +51,7 @@ MissionKind fireMissionKind() {
   return {"fire",
           "finds the fire in the kitchen and sprays it",
           "fire",
-          "",
+          {},
           [] { return std::make_unique<MissionConfigOf<FireSection>>(); },
           makeFire,
           {DeviceKind::Pumps, DeviceKind::Lidar, DeviceKind::ThermalCamera},

@@ -68,7 +68,7 @@ MissionKind mappingMissionKind() {
   return {"mapping",
           "drives a round to record for kiln-eval map (locates by walls, needs no map)",
           "fire",
-          "walls",
+          {"localization.method=walls"},
           [] { return std::make_unique<MissionConfigOf<MappingConfig>>(); },
           make,
           {DeviceKind::Lidar}};

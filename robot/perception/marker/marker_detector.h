@@ -72,7 +72,7 @@ class MarkerDetector {
     HsvVolume magenta_shade{145, 176, 90, 45};
     double ground_share = 0.08;     ///< of the picture in the yellow volume: it is the ground
     int ground_margin = 45;         ///< saturation above the ground's median
-    int vicinity_px = 20;           ///< half a window in which the other colour must be
+    int vicinity_px = 32;           ///< half a window in which the other colour must be
     double vicinity_share = 0.006;  ///< of that window
     int max_corners = 600;          ///< of each mask
     double corner_quality = 0.10;   ///< of the strongest

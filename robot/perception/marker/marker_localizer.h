@@ -69,7 +69,7 @@ struct MarkerSearch {
 class MarkerLocalizer {
  public:
   struct Config {
-    double hfov_deg = 78.0;
+    double hfov_deg = kHeadCameraHfov_deg;
     double window_s = 10.0;
     int max_pictures = 100;
     int max_outline = 400;  ///< points kept of a picture

@@ -83,7 +83,7 @@ MissionKind toyMissionKind() {
   return {"toy",
           "drives a metre",
           "fire",
-          "",
+          {},
           [] { return std::make_unique<MissionConfigOf<ToyConfig>>(); },
           [](const MissionConfig& config, const std::string& mission_uuid,
              const MissionParts& parts) -> Result<std::unique_ptr<Mission>> {

@@ -74,20 +74,5 @@ TEST(MarkerPicture, SameSeedPaintsTheSamePicture) {
   EXPECT_EQ(first.scan_base.x, again.scan_base.x);
 }
 
-TEST(MarkerPicture, HeadLooksWhereTheTrialSays) {
-  const auto robot = loadResource<RobotGeometry>("robot_model/bob.yaml");
-  ASSERT_TRUE(robot);
-  for (const double pan : {-25.0, 0.0, 25.0})
-    for (const double tilt : {8.0, 20.0, 42.0}) {
-      const Eigen::Isometry3d X = robot->X_base_flange(lookingPosture(pan * kDeg, tilt * kDeg)) *
-                                  robot->X_flange_rgb.pose();
-      const Eigen::Vector3d view = X.linear().col(2);
-      EXPECT_NEAR(X.translation().z(), 1.72, 0.07);
-      EXPECT_NEAR(std::asin(-view.z()) / kDeg, tilt, 1e-6);
-      EXPECT_NEAR(std::atan2(view.y(), view.x()) / kDeg, pan, 1e-6);
-      EXPECT_NEAR(X.linear()(2, 0), 0.0, 1e-9);  // the picture stands upright
-    }
-}
-
 }  // namespace
 }  // namespace kiln

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "common/core/error.h"
+#include "common/geom/pose.h"
+#include "robot/perception/bricks/brick_poses.h"
+
+namespace kiln {
+
+/// Where pile or marker were found.
+struct FoundFrame {
+  Pose2 X_map_frame;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< x, y (m), yaw (rad), axes of map
+};
+
+/// A brick of the pile as it was perceived.
+struct PileBrick {
+  BrickKind kind = BrickKind::Red;
+  BrickState state = BrickState::Unseen;
+  Eigen::Isometry3d X_map_brick = Eigen::Isometry3d::Identity();
+  double confidence = 0.0;  ///< 0 to 1 that it lies there
+};
+
+/// What the wall mission knows of its site, and what survives a restart of the program. Confined to
+/// the mission thread.
+struct WallBelief {
+  std::optional<FoundFrame> pile;  ///< nullopt: not found yet
+  std::optional<FoundFrame> wall;  ///< wall frame on the ground, by the marker
+  std::vector<PileBrick> bricks;   ///< as the pile's layout has them; empty: not looked at yet
+  int pile_looks = 0, brick_looks = 0, marker_looks = 0;
+  int drive_faults = 0;  ///< in a row
+};
+
+[[nodiscard]] nlohmann::json wallBeliefToJson(const WallBelief& belief);
+/// Error{InvalidInput}: names what is missing, of the wrong type or out of range.
+[[nodiscard]] Result<WallBelief> wallBeliefFromJson(const nlohmann::json& saved);
+
+}  // namespace kiln

@@ -1,0 +1,47 @@
+#include "robot/missions/wall/wall_config.h"
+
+namespace kiln {
+
+void PileLookConfig::visit(ConfigArchive& a) {
+  a.field("distance_m", distance_m, "m", 1.5, 8, "of the base from the middle of line 1");
+  a.field("settle_s", settle_s, "s", 0.2, 10, "at rest before it is judged what the scans show");
+  a.field("max_looks", max_looks, "", 1, 10, "from places beside each other");
+}
+
+void BrickLookConfig::visit(ConfigArchive& a) {
+  a.field("wheels_m", wheels_m, "m", 0, 0.5, "one sigma of a drive since the pile was found");
+  a.field("wheels_deg", wheels_deg, "deg", 0, 10, "the same of its direction");
+  a.field("trusted", trusted, "", 0, 1, "confidence of a brick that may be gripped");
+  a.field("latency_s", latency_s, "s", 0, 5, "modelled latency in lockstep");
+}
+
+void MarkerLookConfig::visit(ConfigArchive& a) {
+  a.field("distance_m", distance_m, "m", 2, 12, "of the base from the leg of the blueprint");
+  a.field("pan_deg", pan_deg, "deg", 0, 60, "the head looks to both sides by so much");
+  a.field("stops", stops, "", 1, 20, "from one side to the other");
+  a.field("rest_s", rest_s, "s", 0.2, 10, "at each of them; pictures of a head at rest count");
+  a.field("tilt_deg", tilt_deg, "deg", 0, 80, "below the horizon, one round each");
+  a.field("max_looks", max_looks, "", 1, 10, "from places beside each other");
+}
+
+void WallConfig::visit(ConfigArchive& a) {
+  a.field("blueprint", blueprint, "what is to be built: a resource, or the path of a file");
+  a.field("mirrored", mirrored, "its lines are drawn as seen from behind the wall");
+  a.field("bottom_first", bottom_first, "its first line is the layer on the ground");
+  a.section("pile_look", pile_look, "from where the pile is looked for");
+  a.section("brick_look", brick_look, "where each brick of the pile lies");
+  a.section("marker_look", marker_look, "from where the wall's marker is looked for");
+  a.section("look", look, "sweeps of the LiDAR");
+  a.section("pile", pile, "pile in the cloud");
+  a.section("bricks", bricks, "bricks in the cloud");
+  a.section("marker", marker, "wall marker in the head camera's pictures");
+  a.section("build_order", build_order, "what one position of the base reaches");
+  a.section("build_time", build_time, "what building takes, for the order of least time");
+  a.section("storage", storage, "what may stand in the robot's storage");
+  a.field("stow_tolerance_deg", stow_tolerance_deg, "deg", 0.1, 20, "arm counts as stowed");
+  a.field("rest_s", rest_s, "s", 0, 30, "before a drive is tried once more");
+  a.field("max_drive_faults", max_drive_faults, "", 0, 10, "drives that may fail in a row");
+  a.field("limit_s", limit_s, "s", 60, 36000, "mission clock");
+}
+
+}  // namespace kiln

@@ -1,0 +1,149 @@
+#include "robot/missions/wall/wall_view.h"
+
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+#include <fmt/format.h>
+
+#include "common/core/units.h"
+
+namespace kiln::wall {
+namespace {
+
+constexpr const char* kPile = "wall.pile";
+constexpr const char* kWall = "wall.blueprint";
+constexpr double kGround_m = 0.02;
+
+SceneItem brickItem(const char* layer, std::string id, const Eigen::Isometry3d& X_map_brick,
+                    BrickKind kind, ItemStyle style, double width_px) {
+  SceneItem item;
+  item.id = std::move(id);
+  item.layer = layer;
+  item.shape = SceneItem::Shape::Box;
+  item.style = style;
+  item.width_px = width_px;
+  item.X_map_item = X_map_brick;
+  item.size = {brickShape(kind).length_m, kBrickSide_m, kBrickSide_m};
+  return item;
+}
+
+/// Two standard deviations along the worst axis of the ground, and of the direction.
+std::string spreadText(const Eigen::Matrix3d& covariance) {
+  const Eigen::Matrix2d C = covariance.topLeftCorner<2, 2>();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(C, Eigen::EigenvaluesOnly);
+  return fmt::format("±{:.0f} cm, ±{:.1f}°",
+                     200.0 * std::sqrt(std::max(0.0, solver.eigenvalues().maxCoeff())),
+                     2.0 * std::sqrt(std::max(0.0, covariance(2, 2))) / kDeg);
+}
+
+SceneItem nameItem(const char* layer, const std::string& name, const Pose2& X_map_frame,
+                   const std::optional<FoundFrame>& found) {
+  SceneItem item;
+  item.id = name;
+  item.layer = layer;
+  item.shape = SceneItem::Shape::Text;
+  item.X_map_item = toIsometry(X_map_frame) * Eigen::Translation3d(0.0, 0.0, 1.3);
+  item.label = name + (found ? " found" : ", as configured");
+  if (found) item.detail = spreadText(found->covariance);
+  return item;
+}
+
+/// The bricks as a look found them; how sure it is stands beside what is not trusted.
+void addBricks(const WallContext& context, std::vector<SceneItem>& out) {
+  int number = 0;
+  for (const PileBrick& brick : context.belief.bricks) {
+    const bool trusted = brick.confidence > context.config.brick_look.trusted;
+    out.push_back(brickItem(kPile, fmt::format("brick {}", ++number), brick.X_map_brick, brick.kind,
+                            trusted ? ItemStyle::Sensed : ItemStyle::Configured,
+                            trusted ? 1.6 : 1.0));
+    if (!trusted)
+      out.back().label =
+          fmt::format("{}, {:.0f} %", toString(brick.state), 100.0 * brick.confidence);
+  }
+}
+
+void addPile(const WallContext& context, std::vector<SceneItem>& out) {
+  out.push_back(nameItem(kPile, "pile", context.X_map_pile(), context.belief.pile));
+  if (!context.belief.bricks.empty()) return addBricks(context, out);
+  const bool found = context.belief.pile.has_value();
+  const Eigen::Isometry3d X_map_pile = toIsometry(context.X_map_pile());
+  for (const PileSlot& slot : context.site.layout().slots())
+    out.push_back(brickItem(kPile, fmt::format("stack {}", slot.stack + 1),
+                            X_map_pile * slot.X_pile_brick, slot.kind,
+                            found ? ItemStyle::Sensed : ItemStyle::Configured, 1.2));
+}
+
+/// The marker's L on the ground.
+SceneItem markerItem(const WallContext& context) {
+  const double l = kMarkerLength_m, w = kMarkerWidth_m;
+  SceneItem item;
+  item.id = "marker";
+  item.layer = kWall;
+  item.style = context.belief.wall ? ItemStyle::Sensed : ItemStyle::Configured;
+  item.width_px = 2.0;
+  const Eigen::Isometry3d X = toIsometry(context.X_map_wall());
+  for (const auto& [x, y] :
+       {std::pair{0.0, 0.0}, {l, 0.0}, {l, w}, {w, w}, {w, l}, {0.0, l}, {0.0, 0.0}})
+    item.points.emplace_back(X * Eigen::Vector3d(x, y, kGround_m));
+  return item;
+}
+
+void addWall(const WallContext& context, std::vector<SceneItem>& out) {
+  out.push_back(markerItem(context));
+  const Eigen::Isometry3d X_map_wall = toIsometry(context.X_map_wall());
+  int number = 0;
+  for (const WallLoad& load : context.plan.loads)
+    for (const std::size_t index : load.slots) {
+      const WallSlot& slot = context.plan.slots[index];
+      out.push_back(brickItem(kWall, fmt::format("{}", ++number), X_map_wall * slot.X_wall_brick,
+                              slot.kind, ItemStyle::Planned, 1.0));
+      out.back().label = fmt::format("{} {}", number, brickShape(slot.kind).letter);
+    }
+  out.push_back(nameItem(kWall, "wall", context.X_map_wall(), context.belief.wall));
+}
+
+}  // namespace
+
+MissionInfo missionInfo() {
+  MissionInfo info;
+  info.title = "Challenge 2, wall of bricks";
+  FigureSpec bricks;
+  bricks.id = "wall.bricks";
+  bricks.label = "Bricks";
+  bricks.decimals = 0;
+  bricks.doc = "that the blueprint asks for";
+  FigureSpec positions;
+  positions.id = "wall.positions";
+  positions.label = "Positions";
+  positions.decimals = 0;
+  positions.doc = "of the base before the wall, in the planned order";
+  FigureSpec expected;
+  expected.id = "wall.expected";
+  expected.label = "Building takes";
+  expected.unit = "min";
+  expected.estimated = true;
+  expected.doc = "at the wall, by the planner's model of arm and base";
+  info.figures = {bricks, positions, expected};
+  info.layers = {{kPile, "Pile"}, {kWall, "Planned wall"}};
+  return info;
+}
+
+std::vector<Figure> figures(const WallPlan& plan) {
+  double positions = 0.0, expected_s = 0.0;
+  for (const WallLoad& load : plan.loads) {
+    positions += load.order.cost.positions;
+    expected_s += load.expected_s;
+  }
+  return {{"wall.bricks", static_cast<double>(plan.slots.size())},
+          {"wall.positions", positions},
+          {"wall.expected", expected_s / 60.0}};
+}
+
+std::vector<SceneItem> sceneItems(const WallContext& context) {
+  std::vector<SceneItem> out;
+  addPile(context, out);
+  addWall(context, out);
+  return out;
+}
+
+}  // namespace kiln::wall

@@ -1,0 +1,64 @@
+#include "robot/missions/wall/wall_belief.h"
+
+#include <limits>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace kiln {
+namespace {
+
+WallBelief known() {
+  WallBelief belief;
+  belief.pile = FoundFrame{{1.0, 2.0, 0.3}, Eigen::Vector3d(0.01, 0.02, 0.001).asDiagonal()};
+  PileBrick brick{BrickKind::Blue, BrickState::Found, Eigen::Isometry3d::Identity(), 0.9};
+  brick.X_map_brick =
+      Eigen::Translation3d(1.0, 2.0, 0.5) * Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitZ());
+  belief.bricks = {brick};
+  belief.pile_looks = 2;
+  belief.marker_looks = 1;
+  return belief;
+}
+
+TEST(WallBelief, ComesBackAsItWasSaved) {
+  const auto back = wallBeliefFromJson(wallBeliefToJson(known()));
+  ASSERT_TRUE(back.has_value()) << back.error();
+  EXPECT_DOUBLE_EQ(back->pile->X_map_frame.y_m, 2.0);
+  EXPECT_DOUBLE_EQ(back->pile->covariance(1, 1), 0.02);
+  EXPECT_FALSE(back->wall.has_value());
+  ASSERT_EQ(back->bricks.size(), 1u);
+  EXPECT_EQ(back->bricks[0].kind, BrickKind::Blue);
+  EXPECT_EQ(back->bricks[0].state, BrickState::Found);
+  EXPECT_TRUE(back->bricks[0].X_map_brick.isApprox(known().bricks[0].X_map_brick, 1e-12));
+  EXPECT_DOUBLE_EQ(back->bricks[0].confidence, 0.9);
+  EXPECT_EQ(back->pile_looks, 2);
+  EXPECT_EQ(back->marker_looks, 1);
+}
+
+TEST(WallBelief, WhatIsDamagedIsRefusedByName) {
+  const nlohmann::json good = wallBeliefToJson(known());
+  const auto refused = [](const nlohmann::json& saved) {
+    const auto belief = wallBeliefFromJson(saved);
+    return belief ? std::string() : belief.error().message;
+  };
+  nlohmann::json far = good, none = good, nan = good, looks = good, shape = good, kind = good,
+                 state = good, turn = good, sure = good;
+  far["pile"]["x_m"] = 1e9;
+  none.erase("wall");
+  nan["pile"]["covariance"][4] = nullptr;
+  looks["pile_looks"] = -1;
+  shape["pile"]["covariance"] = {1.0, 2.0};
+  kind["bricks"][0]["kind"] = "pink";
+  state["bricks"][0]["state"] = "gone";
+  turn["bricks"][0]["wxyz"] = {0.0, 0.0, 0.0, 0.0};
+  sure["bricks"][0]["confidence"] = 1.5;
+  for (const auto& bad : {kind, state, turn, sure}) EXPECT_NE(refused(bad), "") << bad;
+  EXPECT_NE(refused(far).find("pile"), std::string::npos);
+  EXPECT_NE(refused(none).find("wall"), std::string::npos);
+  EXPECT_NE(refused(nan), "");
+  EXPECT_NE(refused(looks).find("pile_looks"), std::string::npos);
+  EXPECT_NE(refused(shape), "");
+}
+
+}  // namespace
+}  // namespace kiln
