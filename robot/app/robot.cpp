@@ -170,7 +170,8 @@ Result<void> Robot::Impl::open(Executor& executor) {
        [this](Stamp stamp) { return intake.flangeAt(stamp, localization.tracked()); },
        [this](Stamp stamp) { return intake.bodyAt(stamp, localization.tracked()); },
        [&telemetry](const ThermalImagePtr& image) { telemetry.publish(image); },
-       [&telemetry](MissionDetail detail) { telemetry.publish(std::move(detail)); }});
+       [&telemetry](MissionDetail detail) { telemetry.publish(std::move(detail)); }, &body.arm,
+       body.devices.gripper, body.devices.storage});
   if (!made) return made;
   auto opened = desk.open(
       {[this](Stamp now) { return gateSituation(now); },

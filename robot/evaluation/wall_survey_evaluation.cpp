@@ -69,6 +69,10 @@ std::string judgeWall(const json& robot, const json& truth, json& report) {
   report["pile_off"] = toJson(pile);
   report["marker_off"] = toJson(marker);
   report["bricks_off_m"] = bricksOff(robot, wall, X_true_map);
+  int stored = 0;
+  for (const json& brick : wall.at("bricks")) stored += brick.contains("bin") ? 1 : 0;
+  report["stored"] = robot.at("stored");
+  report["stored_truly"] = stored;
   report["falls"] = wall.at("falls");
   if (wall.at("falls").get<int>() > 0) return "bricks fell";
   if (pile.position_m > kWrong_m) return "wrong pile";

@@ -1,10 +1,24 @@
 #include "robot/skills/arm_watch.h"
 
+#include <algorithm>
 #include <vector>
 
 #include <fmt/format.h>
 
 namespace kiln {
+namespace {
+
+/// Does the point show one of these boxes?
+bool shows(std::span<const OrientedBox> boxes, const Eigen::Vector3f& p_base) {
+  constexpr double kSurface_m = 0.05;  // of what the LiDAR makes of a surface
+  const Eigen::Vector3d p = p_base.cast<double>();
+  return std::any_of(boxes.begin(), boxes.end(), [&](const OrientedBox& box) {
+    return box.bounds.squaredExteriorDistance(p) < kSurface_m * kSurface_m &&
+           signedDistance(box.X_frame_box.inverse() * p, box.half) < kSurface_m;
+  });
+}
+
+}  // namespace
 
 void ArmWatchConfig::visit(ConfigArchive& a) {
   a.field("enabled", enabled, "look at the live cloud before the arm moves");
@@ -15,7 +29,8 @@ void ArmWatchConfig::visit(ConfigArchive& a) {
 
 std::string whatHindersArm(const ArmWatchConfig& config, const ArmCollision& arm,
                            const Eigen::Vector3d& p_base_armbase, std::span<const JointPath> paths,
-                           const Surroundings& surroundings, Stamp now) {
+                           std::span<const OrientedBox> known, const Surroundings& surroundings,
+                           Stamp now) {
   if (!config.enabled) return {};
   const ObstacleCloudPtr cloud = surroundings.obstacles();
   if (!cloud) return "the arm does not move blindly: there is no LiDAR scan yet";
@@ -27,7 +42,8 @@ std::string whatHindersArm(const ArmWatchConfig& config, const ArmCollision& arm
   std::vector<Eigen::Vector3f> points;
   for (const ObstacleCloud::Point& point : cloud->points) {
     const Eigen::Vector3f p = X_base_odom * point.p_odom;
-    if ((p - p_base_armbase.cast<float>()).norm() < config.reach_m) points.push_back(p);
+    if ((p - p_base_armbase.cast<float>()).norm() < config.reach_m && !shows(known, p))
+      points.push_back(p);
   }
   const auto hit = firstInSweptVolume(arm, paths, PointGrid(std::move(points)), config.swept);
   if (!hit) return {};

@@ -18,11 +18,13 @@ struct ArmWatchConfig {
   void visit(ConfigArchive& a);
 };
 
+/// @param known  in base: what the motion was planned around, and what the live cloud shows of it.
 /// @return why the arm must not move along `paths`: "something stands in the way of the forearm,
 /// 0.42 m above the deck ..."; empty when the way is free.
 [[nodiscard]] std::string whatHindersArm(const ArmWatchConfig& config, const ArmCollision& arm,
                                          const Eigen::Vector3d& p_base_armbase,
                                          std::span<const JointPath> paths,
+                                         std::span<const OrientedBox> known,
                                          const Surroundings& surroundings, Stamp now);
 
 }  // namespace kiln

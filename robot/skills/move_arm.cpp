@@ -254,7 +254,7 @@ struct MoveArm::Impl {
     if (surroundings && terms.watch) {
       std::string why =
           whatHindersArm(config.watch, collision, robot.X_base_armbase.pose().translation(), paths,
-                         *surroundings, now);
+                         terms.scene.boxes, *surroundings, now);
       if (!why.empty()) return fail("obstacle", std::move(why), now);
     }
     trajectory.emplace(std::move(paths), limits);

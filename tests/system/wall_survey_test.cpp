@@ -1,4 +1,4 @@
-// The wall mission as far as it goes, in the lab's world: kiln-sim and kiln-robotd as processes of
+// The wall mission as far as it goes by itself, in the lab's world: kiln-sim and kiln-robotd as processes of
 // their own, in lockstep.
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -28,9 +28,12 @@ TEST(WallSurvey, FindsPileAndMarkerWhereTheyAreAndTouchesNothing) {
     const json report = json::parse(run->report_json);
     ASSERT_TRUE(report.contains("pile_off")) << run->report_json;
     EXPECT_LT(report["pile_off"]["position_m"], 0.15) << seed;
-    EXPECT_LT(report["pile_off"]["yaw_deg"], 3.0) << seed;
-    EXPECT_LT(report["marker_off"]["position_m"], 0.10) << seed;
-    EXPECT_LT(report["marker_off"]["yaw_deg"], 2.0) << seed;
+    EXPECT_LT(report["pile_off"]["yaw_deg"], 5.0) << seed;
+    EXPECT_LT(report["marker_off"]["position_m"], 0.2) << seed;
+    EXPECT_LT(report["marker_off"]["yaw_deg"], 3.0) << seed;
+    EXPECT_EQ(report["bricks_off_m"].size(), 11u) << seed;  // trusted
+    for (const json& off_m : report["bricks_off_m"]) EXPECT_LT(off_m, 0.15) << seed;
+    EXPECT_EQ(report["collisions"].size(), 0u) << seed;
     EXPECT_EQ(report["falls"], 0) << seed;
   }
 }
@@ -44,6 +47,20 @@ TEST(WallSurvey, KilledBetweenPileAndMarkerItGoesOnAndKnowsThePile) {
   ASSERT_TRUE(run.has_value()) << run.error();
   ASSERT_TRUE(run->killed.has_value());
   EXPECT_TRUE(run->success) << run->report_json;
+}
+
+/// The truth says that it stands in the storage, and the robot knows it.
+TEST(WallSurvey, TakesABrickIntoItsStorageWhenToldTo) {
+  MissionRunOptions options = survey(1);
+  options.trace = true;
+  options.robot_args = {"--set", "wall.loading.bricks=1"};
+  const auto run = runMission(options);
+  ASSERT_TRUE(run.has_value()) << run.error();
+  EXPECT_TRUE(run->success) << run->report_json;
+  const json report = json::parse(run->report_json);
+  EXPECT_EQ(report["stored"], 1);
+  EXPECT_EQ(report["stored_truly"], 1);
+  EXPECT_EQ(report["falls"], 0);
 }
 
 TEST(WallSurvey, ABlueprintThatCannotBeReadIsRefusedBeforeAnythingMoves) {

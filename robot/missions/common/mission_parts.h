@@ -8,8 +8,11 @@
 #include "common/model/mission.h"
 #include "common/model/sensor.h"
 #include "common/robot_model/robot_geometry.h"
+#include "robot/control/arm_controller.h"
 #include "robot/control/pump_controller.h"
 #include "robot/hal/arm.h"
+#include "robot/hal/gripper.h"
+#include "robot/hal/storage.h"
 #include "robot/perception/cloud/scan_window.h"
 #include "robot/scene/arena_map.h"
 #include "robot/skills/motion.h"
@@ -46,6 +49,10 @@ struct MissionParts {
   /// To the stations and the recording.
   std::function<void(ThermalImagePtr)> publish_thermal;
   std::function<void(MissionDetail)> publish_detail;  ///< on the mission stream
+  /// What only some robots have; a mission that needs it says so in its line of the catalogue.
+  ArmController* arm_control = nullptr;  ///< payload and force of the arm that `arm` moves
+  Gripper* gripper = nullptr;
+  Storage* storage = nullptr;
 };
 
 }  // namespace kiln

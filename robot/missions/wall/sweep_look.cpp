@@ -32,17 +32,17 @@ SweepLook::SweepLook(const Config& config, const MissionParts& parts)
       views_(parts.executor, "brick_views", config.plan_latency_s),
       lidar_(config.sweep, parts.arm, parts.scans) {}
 
-void SweepLook::start(std::optional<ExpectedBricks> expected, Stamp) {
+void SweepLook::start(std::optional<ExpectedBricks> expected, std::vector<OrientedBox> on_base) {
   stage_ = Stage::Planning;
   next_ = 0;
   all_.reset();
-  parts_.arm.setTerms({});
   const auto arm = parts_.arm_device.state();
   const Vector6d q = arm ? arm->q : RobotGeometry::radians(parts_.robot.q_drive_deg);
   views_.ask([config = config_.views, &robot = parts_.robot, boxes = obstacles(parts_.arena),
-              X_map_base = parts_.pose(), q, expected = std::move(expected)]() -> Result<ViewPlan> {
+              X_map_base = parts_.pose(), q, expected = std::move(expected),
+              on_base = std::move(on_base)]() -> Result<ViewPlan> {
     ArmCollision world(robot);
-    world.setScene(boxes, X_map_base);
+    world.setScene(boxes, X_map_base, {on_base, {}});
     const ViewPlanner planner(config, robot);
     const ViewPlanner::Reach reach = planner.reachOf(world, q);
     return expected ? planner.plan(*expected, reach) : firstLookAlone(planner, reach);

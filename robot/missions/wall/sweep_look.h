@@ -26,7 +26,8 @@ class SweepLook {
   SweepLook(const Config& config, const MissionParts& parts);
 
   /// @param expected  what is to be seen; nullopt: whatever stands ahead.
-  void start(std::optional<ExpectedBricks> expected, Stamp now);
+  /// @param on_base   in base: what the arm keeps clear of beside the arena, as its terms say.
+  void start(std::optional<ExpectedBricks> expected, std::vector<OrientedBox> on_base);
   [[nodiscard]] SkillStatus poll(Stamp now);
   void cancel();
   /// All sweeps together, in base. @pre Done

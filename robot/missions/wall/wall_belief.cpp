@@ -21,26 +21,74 @@ json toJson(const std::optional<FoundFrame>& frame) {
   return {{"x_m", X.x_m}, {"y_m", X.y_m}, {"yaw_rad", X.yaw_rad}, {"covariance", covariance}};
 }
 
+json toJson(const Eigen::Isometry3d& X) {
+  const Eigen::Vector3d p = X.translation();
+  const Eigen::Quaterniond q(X.linear());
+  return {{"xyz_m", {p.x(), p.y(), p.z()}}, {"wxyz", {q.w(), q.x(), q.y(), q.z()}}};
+}
+
 json toJson(const PileBrick& brick) {
-  const Eigen::Vector3d p = brick.X_map_brick.translation();
-  const Eigen::Quaterniond q(brick.X_map_brick.linear());
   return {{"kind", brickShape(brick.kind).name},
           {"state", toString(brick.state)},
-          {"xyz_m", {p.x(), p.y(), p.z()}},
-          {"wxyz", {q.w(), q.x(), q.y(), q.z()}},
-          {"confidence", brick.confidence}};
+          {"pose", toJson(brick.X_map_brick)},
+          {"confidence", brick.confidence},
+          {"taken", brick.taken}};
+}
+
+json toJson(const std::optional<HeldBrick>& held) {
+  if (!held) return nullptr;
+  return {{"name", held->name},
+          {"kind", brickShape(held->kind).name},
+          {"in_tool", toJson(held->X_tool_brick)},
+          {"weighed_kg", held->weighed_kg}};
+}
+
+/// Throws json::exception. Error: no such kind.
+Result<BrickKind> kindFrom(const json& saved) {
+  const std::string name = saved.at("kind").get<std::string>();
+  const auto* known = std::find_if(kBrickShapes.begin(), kBrickShapes.end(),
+                                   [&](const BrickShape& shape) { return shape.name == name; });
+  if (known == kBrickShapes.end())
+    return makeError(ErrorCode::InvalidInput, "there are no bricks '{}'", name);
+  return known->kind;
+}
+
+/// Throws json::exception. Error: no pose, or too far away.
+Result<Eigen::Isometry3d> poseFrom(const json& saved) {
+  const json &p = saved.at("xyz_m"), &q = saved.at("wxyz");
+  Eigen::Isometry3d out = Eigen::Isometry3d::Identity();
+  out.translation() =
+      Eigen::Vector3d(p.at(0).get<double>(), p.at(1).get<double>(), p.at(2).get<double>());
+  const Eigen::Quaterniond turn(q.at(0).get<double>(), q.at(1).get<double>(), q.at(2).get<double>(),
+                                q.at(3).get<double>());
+  constexpr double kUnit = 1e-3;
+  if (!(out.translation().norm() < kFarthest_m && std::abs(turn.norm() - 1.0) < kUnit))
+    return makeError(ErrorCode::InvalidInput, "a brick's pose is out of range");
+  out.linear() = turn.normalized().toRotationMatrix();
+  return out;
+}
+
+/// Throws json::exception.
+Result<std::optional<HeldBrick>> heldFrom(const json& saved) {
+  if (saved.is_null()) return std::optional<HeldBrick>();
+  const auto kind = kindFrom(saved);
+  if (!kind) return tl::make_unexpected(kind.error());
+  const auto X = poseFrom(saved.at("in_tool"));
+  if (!X) return tl::make_unexpected(X.error());
+  HeldBrick out{saved.at("name").get<std::string>(), *kind, *X,
+                saved.at("weighed_kg").get<double>()};
+  if (!std::isfinite(out.weighed_kg))
+    return makeError(ErrorCode::InvalidInput, "the held brick has no weight");
+  return std::optional(std::move(out));
 }
 
 /// Throws json::exception.
 Result<PileBrick> brickFrom(const json& saved) {
   PileBrick out;
-  const std::string kind = saved.at("kind").get<std::string>();
+  const auto kind = kindFrom(saved);
+  if (!kind) return tl::make_unexpected(kind.error());
+  out.kind = *kind;
   const std::string state = saved.at("state").get<std::string>();
-  const auto* known = std::find_if(kBrickShapes.begin(), kBrickShapes.end(),
-                                   [&](const BrickShape& shape) { return shape.name == kind; });
-  if (known == kBrickShapes.end())
-    return makeError(ErrorCode::InvalidInput, "there are no bricks '{}'", kind);
-  out.kind = known->kind;
   bool found = false;
   for (int i = 0; i <= static_cast<int>(BrickState::Excluded); ++i)
     if (toString(static_cast<BrickState>(i)) == state) {
@@ -48,19 +96,13 @@ Result<PileBrick> brickFrom(const json& saved) {
       found = true;
     }
   if (!found) return makeError(ErrorCode::InvalidInput, "a brick is '{}'", state);
-  const json &p = saved.at("xyz_m"), &q = saved.at("wxyz");
-  out.X_map_brick.translation() =
-      Eigen::Vector3d(p.at(0).get<double>(), p.at(1).get<double>(), p.at(2).get<double>());
-  const Eigen::Quaterniond turn(q.at(0).get<double>(), q.at(1).get<double>(), q.at(2).get<double>(),
-                                q.at(3).get<double>());
+  const auto X = poseFrom(saved.at("pose"));
+  if (!X) return tl::make_unexpected(X.error());
+  out.X_map_brick = *X;
   out.confidence = saved.at("confidence").get<double>();
-  constexpr double kUnit = 1e-3;
-  const bool ok = out.X_map_brick.translation().norm() < kFarthest_m &&
-                  std::abs(turn.norm() - 1.0) < kUnit && out.confidence >= 0.0 &&
-                  out.confidence <= 1.0;
-  if (!ok)
-    return makeError(ErrorCode::InvalidInput, "a {} brick of the pile is out of range", kind);
-  out.X_map_brick.linear() = turn.normalized().toRotationMatrix();
+  if (!(out.confidence >= 0.0 && out.confidence <= 1.0))
+    return makeError(ErrorCode::InvalidInput, "a brick's confidence is {}", out.confidence);
+  out.taken = saved.at("taken").get<bool>();
   return out;
 }
 
@@ -91,10 +133,16 @@ Result<std::optional<FoundFrame>> frameFrom(const json& saved, const char* name)
 json wallBeliefToJson(const WallBelief& belief) {
   json bricks = json::array();
   for (const PileBrick& brick : belief.bricks) bricks.push_back(toJson(brick));
-  return {{"pile", toJson(belief.pile)},        {"bricks", bricks},
-          {"wall", toJson(belief.wall)},        {"pile_looks", belief.pile_looks},
-          {"brick_looks", belief.brick_looks},  {"marker_looks", belief.marker_looks},
-          {"drive_faults", belief.drive_faults}};
+  return {{"pile", toJson(belief.pile)},
+          {"bricks", bricks},
+          {"wall", toJson(belief.wall)},
+          {"pile_looks", belief.pile_looks},
+          {"brick_looks", belief.brick_looks},
+          {"marker_looks", belief.marker_looks},
+          {"drive_faults", belief.drive_faults},
+          {"handling_faults", belief.handling_faults},
+          {"stored", belief.stored},
+          {"held", toJson(belief.held)}};
 }
 
 Result<WallBelief> wallBeliefFromJson(const json& saved) {
@@ -107,6 +155,12 @@ Result<WallBelief> wallBeliefFromJson(const json& saved) {
     out.pile = *pile;
     out.wall = *wall;
     constexpr std::size_t kMostBricks = 1000;
+    auto held = heldFrom(saved.at("held"));
+    if (!held) return tl::make_unexpected(held.error());
+    out.held = *held;
+    out.stored = saved.at("stored").get<std::size_t>();
+    if (out.stored > kMostBricks)
+      return makeError(ErrorCode::InvalidInput, "{} bricks in the storage", out.stored);
     if (saved.at("bricks").size() > kMostBricks)
       return makeError(ErrorCode::InvalidInput, "a pile of {} bricks", saved.at("bricks").size());
     for (const json& node : saved.at("bricks")) {
@@ -117,7 +171,8 @@ Result<WallBelief> wallBeliefFromJson(const json& saved) {
     for (const auto& [name, count] :
          {std::pair{"pile_looks", &out.pile_looks}, std::pair{"brick_looks", &out.brick_looks},
           std::pair{"marker_looks", &out.marker_looks},
-          std::pair{"drive_faults", &out.drive_faults}}) {
+          std::pair{"drive_faults", &out.drive_faults},
+          std::pair{"handling_faults", &out.handling_faults}}) {
       *count = saved.at(name).get<int>();
       if (*count < 0 || *count > kMostLooks)
         return makeError(ErrorCode::InvalidInput, "{} is {}", name, *count);

@@ -8,6 +8,7 @@
 #include "common/core/error.h"
 #include "common/geom/pose.h"
 #include "robot/perception/bricks/brick_poses.h"
+#include "robot/skills/bricks/held_brick.h"
 
 namespace kiln {
 
@@ -23,6 +24,7 @@ struct PileBrick {
   BrickState state = BrickState::Unseen;
   Eigen::Isometry3d X_map_brick = Eigen::Isometry3d::Identity();
   double confidence = 0.0;  ///< 0 to 1 that it lies there
+  bool taken = false;       ///< from the pile, wherever it is now
 };
 
 /// What the wall mission knows of its site, and what survives a restart of the program. Confined to
@@ -32,7 +34,11 @@ struct WallBelief {
   std::optional<FoundFrame> wall;  ///< wall frame on the ground, by the marker
   std::vector<PileBrick> bricks;   ///< as the pile's layout has them; empty: not looked at yet
   int pile_looks = 0, brick_looks = 0, marker_looks = 0;
-  int drive_faults = 0;  ///< in a row
+  int drive_faults = 0;     ///< in a row
+  int handling_faults = 0;  ///< in a row
+  /// Bricks in the storage: so many steps of the plan's load are done.
+  std::size_t stored = 0;
+  std::optional<HeldBrick> held;  ///< on the face; in the plan it is the next one to be stored
 };
 
 [[nodiscard]] nlohmann::json wallBeliefToJson(const WallBelief& belief);

@@ -11,8 +11,30 @@ void PileLookConfig::visit(ConfigArchive& a) {
 void BrickLookConfig::visit(ConfigArchive& a) {
   a.field("wheels_m", wheels_m, "m", 0, 0.5, "one sigma of a drive since the pile was found");
   a.field("wheels_deg", wheels_deg, "deg", 0, 10, "the same of its direction");
+  a.field("level_deg", level_deg, "deg", 0, 10, "that seem to lean by no more are level");
+  a.field("far_m", far_m, "m", 0.5, 20, "bricks beyond that are not asked for");
   a.field("trusted", trusted, "", 0, 1, "confidence of a brick that may be gripped");
   a.field("latency_s", latency_s, "s", 0, 5, "modelled latency in lockstep");
+}
+
+void LoadingConfig::visit(ConfigArchive& a) {
+  a.field("bricks", bricks, "", 0, 100, "that are taken; 0: the site is surveyed only");
+  a.field("look_m", look_m, "m", 1.5, 5, "of the base's middle from the stack it looks at");
+  a.field("reach_m", reach_m, "m", 0.5, 2, "of the base's middle from the stack it takes from");
+  a.field("left_m", left_m, "m", -0.5, 0.5, "the stack, to the left of the base's middle");
+  a.field("same_m", same_m, "m", 0, 0.5, "nearer to its stand the base need not drive");
+  a.field("same_deg", same_deg, "deg", 0, 30, "the same of its direction");
+  a.field("seat_front_m", seat_front_m, "m", 0, 0.1, "set down so far before its seat");
+  a.field("before_m", before_m, "m", 0.1, 0.8, "way into a bin: from so far before it");
+  a.field("over_m", over_m, "m", 0.01, 0.3, "and so far above its floor");
+  a.field("aside_m", aside_m, "m", 0, 0.05, "so far beside, where it met a wall of its bin");
+  a.field("askew_m", askew_m, "m", 0, 0.05, "and turned, its ends so far beside");
+  a.field("max_tries", max_tries, "", 1, 50, "of setting a brick into its bin");
+  a.field("back_s", back_s, "s", 0.5, 20, "drawn back by what the arm did that long");
+  a.field("max_faults", max_faults, "", 0, 20, "of pick or store in a row");
+  a.section("pick", pick, "taking a brick");
+  a.section("store", store, "setting it into its bin");
+  a.section("travel", travel, "the storage's compartments");
 }
 
 void MarkerLookConfig::visit(ConfigArchive& a) {
@@ -30,6 +52,7 @@ void WallConfig::visit(ConfigArchive& a) {
   a.field("bottom_first", bottom_first, "its first line is the layer on the ground");
   a.section("pile_look", pile_look, "from where the pile is looked for");
   a.section("brick_look", brick_look, "where each brick of the pile lies");
+  a.section("loading", loading, "how the bricks of the pile come into the storage");
   a.section("marker_look", marker_look, "from where the wall's marker is looked for");
   a.section("look", look, "sweeps of the LiDAR");
   a.section("pile", pile, "pile in the cloud");

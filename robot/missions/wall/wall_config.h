@@ -10,6 +10,9 @@
 #include "robot/perception/bricks/brick_perception.h"
 #include "robot/planning/build_order/build_time.h"
 #include "robot/planning/storage/storage_room.h"
+#include "robot/skills/bricks/move_storage.h"
+#include "robot/skills/bricks/pick_brick.h"
+#include "robot/skills/bricks/place_brick.h"
 
 namespace kiln {
 
@@ -24,8 +27,36 @@ struct PileLookConfig {
 /// The bricks of the pile, each by itself.
 struct BrickLookConfig {
   double wheels_m = 0.03, wheels_deg = 1.0;  ///< one sigma, of a drive since the pile was found
-  double trusted = 0.7;                      ///< confidence of a brick that may be gripped
-  double latency_s = 0.3;                    ///< modelled in lockstep
+  double level_deg = 1.5;  ///< bricks that seem to lean by no more are taken as level
+  double far_m = 4.5;      ///< bricks beyond that from the base are not asked for
+  double trusted = 0.7;    ///< confidence of a brick that may be gripped
+  double latency_s = 0.3;  ///< modelled in lockstep
+  void visit(ConfigArchive& a);
+};
+
+/// How the bricks of the pile come into the storage.
+struct LoadingConfig {
+  int bricks = 0;         ///< so many are taken; 0: the site is surveyed and nothing is touched
+  double look_m = 2.3;    ///< of the base's middle from the stack that it looks at
+  double reach_m = 1.15;  ///< of the base's middle from the stack that it takes from
+  double left_m = 0.05;   ///< and the brick so far to the left of the arm's middle
+  double same_m = 0.15;   ///< nearer to its stand the base need not drive
+  double same_deg = 10.0;
+  double seat_front_m = 0.01;  ///< set down so far before its seat: it slides back into it
+  double before_m = 0.35, over_m = 0.10;  ///< way into a bin: so far before it, and above its floor
+  /// What meets a wall of its bin is set in beside it, and turned so that its ends are so far beside:
+  /// a bin has 2.5 mm to spare on each side.
+  double aside_m = 0.002, askew_m = 0.0025;
+  int max_tries = 25;
+  double back_s = 3.0;  ///< and is drawn back by what the arm did that long
+  int max_faults = 3;   ///< of pick or store in a row
+  PickBrick::Config pick;
+  PlaceBrick::Config store;
+  MoveStorage::Config travel;
+  LoadingConfig() {
+    store.beyond_m = 0.006;
+    store.early_m = 0.06;
+  }  ///< a bin stands where it is known to
   void visit(ConfigArchive& a);
 };
 
@@ -47,6 +78,7 @@ struct WallConfig {
   bool bottom_first = false;
   PileLookConfig pile_look;
   BrickLookConfig brick_look;
+  LoadingConfig loading;
   MarkerLookConfig marker_look;
   SweepLook::Config look;
   PileTask::Config pile;

@@ -1,6 +1,9 @@
 #include "robot/missions/wall/wall_context.h"
 
+#include <algorithm>
 #include <cmath>
+
+#include <fmt/format.h>
 
 #include "common/core/units.h"
 
@@ -30,7 +33,16 @@ WallContext::WallContext(const MissionParts& mission_parts, const WallConfig& wa
       look(wall_config.look, mission_parts),
       pile(wall_config.pile, site_map, mission_parts.executor),
       bricks(mission_parts.executor, "bricks", wall_config.brick_look.latency_s),
-      marker(wall_config.marker, mission_parts) {}
+      marker(wall_config.marker, mission_parts) {
+  if (!parts.gripper || !parts.storage || !parts.arm_control) return;
+  const HandlingParts handling{parts.robot, parts.arm, *parts.arm_control, parts.arm_device,
+                               *parts.gripper};
+  std::vector<std::string> rows;
+  for (const CompartmentConfig& row : parts.robot.storage) rows.push_back(row.name);
+  const LoadingConfig& loading = config.loading;
+  hands.emplace(Hands{PickBrick(loading.pick, handling), PlaceBrick(loading.store, handling),
+                      MoveStorage(loading.travel, *parts.storage, std::move(rows))});
+}
 
 Pose2 WallContext::X_map_pile() const {
   return belief.pile ? belief.pile->X_map_frame : site.pile.pose();
@@ -54,9 +66,17 @@ ExpectedBricks WallContext::expectedBricks() const {
   const Pose2 X_base_map = inverse(parts.pose());
   ExpectedBricks out;
   out.target.X_base_target = toIsometry(X_base_map * X_map_pile());
-  for (const PileSlot& slot : site.layout().slots())
-    out.target.bricks.push_back(
-        {static_cast<int>(out.target.bricks.size()), slot.kind, slot.X_pile_brick, false});
+  const std::vector<PileSlot> slots = site.layout().slots();
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    bool far = false;
+    if (i < belief.bricks.size()) {
+      const PileBrick& brick = belief.bricks[i];
+      if (brick.taken) continue;
+      const Eigen::Vector3d p = toIsometry(X_base_map) * brick.X_map_brick.translation();
+      far = p.head<2>().norm() > config.brick_look.far_m;
+    }
+    out.target.bricks.push_back({static_cast<int>(i), slots[i].kind, slots[i].X_pile_brick, far});
+  }
   const double m = config.brick_look.wheels_m, rad = config.brick_look.wheels_deg * kDeg;
   if (belief.pile) {
     Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
@@ -74,6 +94,128 @@ void WallContext::askForBricks(std::shared_ptr<const BrickSweep> sweep) {
   });
 }
 
+std::size_t WallContext::toStore() const {
+  if (!hands) return 0;
+  return std::min(static_cast<std::size_t>(config.loading.bricks), load().storage.load.size());
+}
+
+std::optional<std::size_t> WallContext::nextBrick() const {
+  if (loaded()) return std::nullopt;
+  const StoragePlan& storage = load().storage;
+  const BrickKind kind = storage.sequence[storage.load[belief.stored].brick];
+  const std::vector<PileSlot> slots = site.layout().slots();
+  const Pose2 here = parts.pose();
+  std::optional<std::size_t> best;
+  double nearest_m = 0.0;
+  for (std::size_t i = 0; i < belief.bricks.size() && i < slots.size(); ++i) {
+    const PileBrick& brick = belief.bricks[i];
+    if (brick.taken || brick.kind != kind || brick.state != BrickState::Found ||
+        brick.confidence <= config.brick_look.trusted)
+      continue;
+    bool covered = false;
+    for (std::size_t j = 0; j < belief.bricks.size() && j < slots.size(); ++j)
+      covered |= slots[j].stack == slots[i].stack && slots[j].layer > slots[i].layer &&
+                 !belief.bricks[j].taken && belief.bricks[j].state != BrickState::Missing;
+    if (covered) continue;
+    const Pose2 stand = takingPose(i);
+    const double way_m = std::hypot(stand.x_m - here.x_m, stand.y_m - here.y_m);
+    if (best && way_m >= nearest_m) continue;
+    best = i;
+    nearest_m = way_m;
+  }
+  return best;
+}
+
+Pose2 WallContext::stackLookPose(std::size_t pile_brick) const {
+  const Eigen::Vector3d p = site.layout().slots()[pile_brick].X_pile_brick.translation();
+  return X_map_pile() * Pose2{p.x(), p.y() - config.loading.look_m, M_PI / 2.0};
+}
+
+Pose2 WallContext::takingPose(std::size_t pile_brick) const {
+  const PileSlot slot = site.layout().slots()[pile_brick];
+  const Eigen::Vector3d p = slot.X_pile_brick.translation();
+  return X_map_pile() *
+         Pose2{p.x() + config.loading.left_m, p.y() - config.loading.reach_m, M_PI / 2.0};
+}
+
+bool WallContext::standsAt(const Pose2& X_map_stand) const {
+  const Pose2 off = inverse(X_map_stand) * parts.pose();
+  return std::hypot(off.x_m, off.y_m) <= config.loading.same_m &&
+         std::abs(wrapAngle(off.yaw_rad)) <= config.loading.same_deg * kDeg;
+}
+
+KnownBrick WallContext::knownBrick(std::size_t pile_brick) const {
+  const PileBrick& brick = belief.bricks[pile_brick];
+  return {fmt::format("brick {}", pile_brick + 1), brick.kind,
+          toIsometry(inverse(parts.pose())) * brick.X_map_brick};
+}
+
+std::vector<OrientedBox> WallContext::storageNow() const {
+  if (!hands) return {};
+  StoragePosture posture;
+  if (const auto state = parts.storage->state())
+    for (const CompartmentState& row : state->compartments) posture.push_back(row.position_m);
+  posture.resize(parts.robot.storage.size(), 0.0);
+  return storageAt(posture);
+}
+
+std::vector<OrientedBox> WallContext::storageAt(const StoragePosture& posture) const {
+  const StoragePlan& storage = load().storage;
+  std::vector<StoredBrick> stored;
+  for (std::size_t i = 0; i < belief.stored; ++i)
+    stored.push_back({storage.sequence[storage.load[i].brick], storage.load[i].seat});
+  return storageBoxes({parts.robot.storage, parts.robot.body, {}}, posture, stored);
+}
+
+std::vector<OrientedBox> WallContext::aroundHands() const {
+  std::vector<KnownBrick> bricks;
+  for (std::size_t i = 0; i < belief.bricks.size(); ++i)
+    if (!belief.bricks[i].taken && belief.bricks[i].state != BrickState::Missing)
+      bricks.push_back(knownBrick(i));
+  std::vector<OrientedBox> out = boxesOf(bricks);
+  for (OrientedBox& box : storageNow()) out.push_back(std::move(box));
+  return out;
+}
+
+Eigen::Isometry3d WallContext::X_base_seat(const StoragePosture& posture, double out_m,
+                                           double up_m) const {
+  const StorageStep& step = load().storage.load[belief.stored];
+  const StorageRoom room{parts.robot.storage, parts.robot.body, {}};
+  const Eigen::Isometry3d X_seat =
+      X_base_stored(room, posture, step.seat, load().storage.sequence[step.brick]);
+  const Eigen::Vector3d by = out_m * X_seat.linear().col(2) + up_m * X_seat.linear().col(0);
+  return Eigen::Translation3d(by) * X_seat;
+}
+
+Result<void> WallContext::checkSeat(const StoragePosture& posture) const {
+  const LoadingConfig& l = config.loading;
+  ArmMoveTerms terms;
+  terms.scene.boxes = storageAt(posture);
+  terms.carried = belief.held->inFlange(parts.robot);
+  terms.clearance_m = l.store.handling.line_clearance_m;
+  // Head and brick may touch the storage there; the arm's links may not.
+  for (const OrientedBox& box : terms.scene.boxes) terms.scene.touchable.push_back(box.name);
+  parts.arm.setTerms(std::move(terms));
+  const Eigen::Isometry3d X_brick_flange =
+      belief.held->X_tool_brick.inverse() * parts.robot.X_flange_tool.pose().inverse();
+  Result<void> out;
+  for (const bool half_turn : {false, true}) {
+    out = {};
+    for (const auto& [out_m, up_m] :
+         {std::pair{l.before_m, l.over_m}, std::pair{0.5 * l.before_m, l.over_m},
+          std::pair{2.0 * l.seat_front_m, l.over_m}, std::pair{2.0 * l.seat_front_m, 0.0}}) {
+      Eigen::Isometry3d X = X_base_seat(posture, out_m, up_m);
+      if (half_turn) X = X * Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitZ());
+      if (const auto q = parts.arm.check(X * X_brick_flange); !q)
+        out = tl::make_unexpected(q.error());
+    }
+    if (out) break;
+  }
+  return out;
+}
+
+void WallContext::handleBricks() { parts.arena.fixtures[kWallSite].boxes.clear(); }
+
 void WallContext::siteMoved() {
   WallSiteMap now = site;
   const auto config_of = [](const Pose2& X) {
@@ -88,6 +230,14 @@ void WallContext::halt() {
   drive.cancel();
   parts.arm.cancel();
   parts.base.cancel();
+  if (hands) {
+    hands->pick.cancel();
+    hands->store.cancel();
+    hands->travel.cancel();
+  }
+  ArmMoveTerms usual;
+  usual.scene.boxes = storageNow();
+  parts.arm.setTerms(std::move(usual));
   look.cancel();
   pile.clear();
   bricks.clear();

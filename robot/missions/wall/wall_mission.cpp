@@ -20,7 +20,7 @@ void WallMission::beginAnew(Stamp) {
 
 void WallMission::onReset(Stamp) {
   context_.halt();
-  context_.belief.drive_faults = 0;
+  context_.belief.drive_faults = context_.belief.handling_faults = 0;
 }
 
 nlohmann::json WallMission::save() const { return wallBeliefToJson(context_.belief); }
@@ -47,6 +47,7 @@ void WallMission::report(nlohmann::json& report) const {
     if (!found) return nullptr;
     return pose(found->X_map_frame);
   };
+  report["stored"] = context_.belief.stored;
   report["map_start"] = pose(context_.parts.arena.start.pose());
   for (const PileBrick& brick : context_.belief.bricks) {
     const Eigen::Vector3d p = brick.X_map_brick.translation();
@@ -86,13 +87,13 @@ Result<std::unique_ptr<Mission>> makeWall(const MissionConfig& config,
 
 MissionKind wallMissionKind() {
   return {"wall",
-          "finds the pile of bricks and the wall's marker, plans the wall; picks no brick yet",
+          "finds the pile, its bricks and the wall's marker, plans the wall; sets no brick yet",
           "wall_lab",
           {"name=Mario", "geometry=robot_model/mario.yaml", "arena=config/arena_wall_lab.yaml",
            "localization.method=odometry"},
           [] { return std::make_unique<MissionConfigOf<WallConfig>>(); },
           makeWall,
-          {DeviceKind::Lidar, DeviceKind::HeadCamera},
+          {DeviceKind::Lidar, DeviceKind::HeadCamera, DeviceKind::Gripper, DeviceKind::Storage},
           wallFixtures};
 }
 

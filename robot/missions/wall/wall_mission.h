@@ -5,8 +5,9 @@
 
 namespace kiln {
 
-/// Challenge 2: finds the pile and the wall's marker and plans what is built where; picks and sets
-/// no brick yet. Confined to the mission thread, onPicture() aside.
+/// Challenge 2: finds the pile, its bricks and the wall's marker, and plans what is built where;
+/// takes bricks into the storage where it is told to, and sets none yet. Confined to the mission
+/// thread, onPicture() aside.
 class WallMission final : public Mission {
  public:
   WallMission(const MissionParts& parts, const WallConfig& config, const WallSiteMap& site,

@@ -4,6 +4,7 @@
 
 #include "common/model/status.h"
 #include "robot/missions/wall/states/arm_stopped.h"
+#include "robot/missions/wall/states/store_brick.h"
 #include "robot/missions/wall/states/wall_given_up.h"
 
 namespace kiln {
@@ -24,7 +25,7 @@ bool armIsReleased(const WallContext& context) {
                   arm->powered);
 }
 
-Transition wallInterrupt(WallContext& context, Stamp now) {
+Transition wallInterrupt(WallContext& context, bool may_hold, Stamp now) {
   if (!armIsReleased(context)) {
     const ArmState arm = *context.parts.arm_device.state();
     return interruptTo<ArmStopped>(
@@ -34,6 +35,8 @@ Transition wallInterrupt(WallContext& context, Stamp now) {
   if (elapsed_s >= context.config.limit_s)
     return interruptTo<WallGivenUp>(
         context, fmt::format("the mission clock of {:.0f} s has run out", context.config.limit_s));
+  if (context.belief.held && !may_hold)
+    return interruptTo<StoreBrick>(context, context.belief.held->name + " hangs on the gripper");
   return Transition{};
 }
 

@@ -23,6 +23,8 @@ Eigen::Isometry3d turned(const Eigen::Isometry3d& X_base_brick, bool half_turn) 
 
 void PlaceBrick::Config::visit(ConfigArchive& a) {
   a.field("above_m", above_m, "m", 0.03, 0.5, "carried to so far above the slot");
+  a.field("enter_mps", enter_mps, "m/s", 0.005, 0.3, "on the last way in");
+  a.field("enter_n", enter_n, "N", 3, 60, "that counts as met there");
   a.field("near_m", near_m, "m", 0.002, 0.1, "lowered slowly from so far above it");
   a.field("aside_m", aside_m, "m", 0, 0.1, "and so far from the neighbour");
   a.field("beyond_m", beyond_m, "m", 0, 0.1, "led so far below the slot");
@@ -126,6 +128,10 @@ SkillStatus PlaceBrick::poll(Stamp now) {
     if (base_.zeroOverdue(now))
       return base_.fail("timeout", "the force sensor cannot be zeroed: something presses on it");
     if (!base_.zeroed()) return base_.status;
+    if (narrow()) {
+      enterNext(config_.enter_mps, config_.enter_n, now);
+      return base_.status;
+    }
     base_.watch.setSupported(true);
     const double down = way().back().translation().z() - request_.X_base_slot.translation().z();
     line(Stage::Lowering, "down until the support is felt",
@@ -174,14 +180,23 @@ SkillStatus PlaceBrick::carried(const SkillStatus& motion, Stamp now) {
     carry(now);
     return base_.status;
   }
-  if (entered_ < way().size()) {
-    line(Stage::Entering, "brings it in", turned(way()[entered_++], turns_.front()),
-         config_.leave_mps, config_.handling.guard_n, now);
+  if (entered_ < way().size() && !narrow()) {
+    enterNext(config_.leave_mps, config_.handling.guard_n, now);
     return base_.status;
   }
   enter(Stage::Zeroing, "zeroes the force sensor", now);
   base_.askZero(now);
   return base_.status;
+}
+
+/// The last way into a bin is next: slow, and the sensor zeroed as the brick hangs now.
+bool PlaceBrick::narrow() const {
+  return !request_.way_base_brick.empty() && entered_ + 1 == way().size();
+}
+
+void PlaceBrick::enterNext(double speed_mps, double guard_n, Stamp now) {
+  line(Stage::Entering, "brings it in", turned(way()[entered_++], turns_.front()), speed_mps,
+       guard_n, now);
 }
 
 SkillStatus PlaceBrick::lowered(const SkillStatus& motion, Stamp now) {

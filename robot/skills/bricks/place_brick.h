@@ -38,11 +38,12 @@ struct Placement {
 class PlaceBrick {
  public:
   struct Config {
-    double above_m = 0.08;   ///< carried to so far above the slot
-    double near_m = 0.015;   ///< lowered slowly from so far above it
-    double aside_m = 0.02;   ///< and so far from the neighbour
-    double beyond_m = 0.02;  ///< led so far below the slot
-    double early_m = 0.02;   ///< felt higher above the slot than this, it is no support
+    double above_m = 0.08;                    ///< carried to so far above the slot
+    double enter_mps = 0.01, enter_n = 10.0;  ///< on the last way in; that counts as met there
+    double near_m = 0.015;                    ///< lowered slowly from so far above it
+    double aside_m = 0.02;                    ///< and so far from the neighbour
+    double beyond_m = 0.02;                   ///< led so far below the slot
+    double early_m = 0.02;  ///< felt higher above the slot than this, it is no support
     double lower_mps = 0.01;
     double support_n = 6.0;  ///< that counts as felt; a long brick tips off the face under more
     double raise_m = 0.004;  ///< off its support while it is led sideways
@@ -84,6 +85,8 @@ class PlaceBrick {
   void carry(Stamp now);
   void line(Stage stage, std::string text, const Eigen::Isometry3d& X_base_brick, double speed_mps,
             double guard_n, Stamp now);
+  [[nodiscard]] bool narrow() const;
+  void enterNext(double speed_mps, double guard_n, Stamp now);
   SkillStatus carried(const SkillStatus& motion, Stamp now);
   SkillStatus lowered(const SkillStatus& motion, Stamp now);
   SkillStatus neared(const SkillStatus& motion, Stamp now);

@@ -3,6 +3,8 @@
 #include "common/model/status.h"
 #include "robot/missions/wall/states/drive_to_marker.h"
 #include "robot/missions/wall/states/drive_to_pile.h"
+#include "robot/missions/wall/states/locate_bricks.h"
+#include "robot/missions/wall/states/store_brick.h"
 #include "robot/missions/wall/states/wall_given_up.h"
 
 namespace kiln {
@@ -20,7 +22,9 @@ Transition ArmStopped::execute() {
     display("look at the arm, then release the protective stop");
     return stay();
   }
+  if (c.belief.held) return transit<StoreBrick>().because("released; a brick hangs on the gripper");
   if (!c.belief.pile) return transit<DriveToPile>().because("released; to the pile");
+  if (c.hands && !c.loaded()) return transit<LocateBricks>().because("released; to the bricks");
   return transit<DriveToMarker>().because("released; to the marker");
 }
 

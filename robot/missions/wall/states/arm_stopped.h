@@ -6,10 +6,13 @@ namespace kiln {
 
 class DriveToPile;
 class DriveToMarker;
+class LocateBricks;
 
 /// The arm's safety controller has stopped it. Only the operator's release ends this: the vendor
 /// prohibits an automatic one. Afterwards the look that was under way begins anew.
-class ArmStopped : public BareWallState<ArmStopped, To<DriveToPile, DriveToMarker, WallGivenUp>> {
+class ArmStopped
+    : public BareWallState<ArmStopped,
+                           To<DriveToPile, DriveToMarker, LocateBricks, StoreBrick, WallGivenUp>> {
  public:
   static constexpr const char* kGroup = kFallback;
   static constexpr const char* kLabel = "Protective stop";

@@ -18,7 +18,7 @@ Transition FindPile::execute() {
   guard("At rest", settled);
   display("looking for the pile");
   if (!settled) return stay();
-  if (!started_) c.look.start(std::nullopt, now());
+  if (!started_) c.look.start(std::nullopt, c.storageNow());
   started_ = true;
   const SkillStatus look = c.look.poll(now());
   display("looking for the pile: " + look.text);

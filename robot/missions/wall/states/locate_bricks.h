@@ -4,12 +4,16 @@
 
 namespace kiln {
 
+class ApproachStack;
 class DriveToMarker;
 class DriveToPile;
+class DriveToStack;
 
 /// Sweeps the LiDAR over the pile from the views that show its bricks, and finds each of them
 /// (paper, "Individual Brick Pose Estimation").
-class LocateBricks : public WallState<LocateBricks, To<DriveToPile, DriveToMarker>> {
+class LocateBricks
+    : public WallState<LocateBricks,
+                       To<ApproachStack, DriveToPile, DriveToStack, DriveToMarker, TakeBrick>> {
  public:
   static constexpr const char* kGroup = kPerception;
   static constexpr const char* kDoc = "Sweeps the LiDAR over the pile and finds each brick";
@@ -20,6 +24,7 @@ class LocateBricks : public WallState<LocateBricks, To<DriveToPile, DriveToMarke
 
  private:
   [[nodiscard]] Transition conclude(const BrickSight& sight);
+  [[nodiscard]] Transition goOn(const std::string& found);
   [[nodiscard]] Transition again(const std::string& why);
   bool asked_ = false;
 };

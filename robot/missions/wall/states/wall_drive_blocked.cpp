@@ -2,6 +2,7 @@
 
 #include "robot/missions/wall/states/drive_to_marker.h"
 #include "robot/missions/wall/states/drive_to_pile.h"
+#include "robot/missions/wall/states/locate_bricks.h"
 #include "robot/missions/wall/states/wall_given_up.h"
 
 namespace kiln {
@@ -9,7 +10,10 @@ namespace kiln {
 void WallDriveBlocked::arrive() {
   WallBelief& belief = context().belief;
   ++belief.drive_faults;
-  ++(belief.pile ? belief.marker_looks : belief.pile_looks);
+  if (!belief.pile)
+    ++belief.pile_looks;
+  else if (context().loaded())
+    ++belief.marker_looks;
 }
 
 Transition WallDriveBlocked::execute() {
@@ -19,6 +23,7 @@ Transition WallDriveBlocked::execute() {
   if (c.belief.drive_faults > c.config.max_drive_faults)
     return transit<WallGivenUp>().because("cannot be reached: " + why_);
   if (!c.belief.pile) return transit<DriveToPile>().because("from another side");
+  if (c.hands && !c.loaded()) return transit<LocateBricks>().because("once more from here");
   return transit<DriveToMarker>().because("from another side");
 }
 

@@ -6,11 +6,13 @@ namespace kiln {
 
 class DriveToPile;
 class DriveToMarker;
+class LocateBricks;
 
 /// A drive failed: rest, then once more from the next place beside the last one, a bounded number
 /// of times.
 class WallDriveBlocked
-    : public WallState<WallDriveBlocked, To<DriveToPile, DriveToMarker>, ResumeAt<DriveToPile>> {
+    : public WallState<WallDriveBlocked, To<DriveToPile, DriveToMarker, LocateBricks>,
+                       ResumeAt<DriveToPile>> {
  public:
   static constexpr const char* kGroup = kFallback;
   static constexpr const char* kLabel = "Drive blocked";

@@ -4,7 +4,7 @@ namespace kiln {
 
 void WallSurveyed::enter() {
   context().halt();
-  display("pile and marker are found; no brick is picked yet");
+  display("pile, bricks and marker are found; nothing is set yet");
 }
 
 }  // namespace kiln

@@ -169,6 +169,26 @@ TEST_F(MoveArmTest, DoesNotMoveWhereTheLiveCloudShowsSomething) {
   EXPECT_NE(status.text.find("blindly"), std::string::npos) << status.text;
 }
 
+/// What is told with a motion is the planner's business, not the watch's.
+TEST_F(MoveArmTest, TheLiveCloudMayShowWhatTheMotionWasToldOf) {
+  const Pose2 X_odom_base{4.0, -2.0, 0.7};
+  TestSurroundings around(clock, [&] { return X_odom_base; });
+  skill.setSurroundings(&around);
+  const Eigen::Isometry3d goal = flangeForCamera(robot, {1.25, 0.0, 1.3});
+  const Eigen::Vector3d shelf = goal * Eigen::Vector3d(0.0, 0.08, 0.2);  // before the gripper
+  const Eigen::Vector3d at = toIsometry(X_odom_base) * shelf;
+  around.stand(at.x(), at.y(), at.z());
+  skill.startPose(goal, clock.now());
+  EXPECT_EQ(run().failure_code, "obstacle") << status.text;
+  ArmMoveTerms terms;
+  terms.scene.boxes = {makeBox(Eigen::Isometry3d(Eigen::Translation3d(shelf)),
+                               Eigen::Vector3d::Constant(0.03), "shelf")};
+  terms.scene.touchable = {"shelf"};
+  skill.setTerms(terms);
+  skill.startPose(goal, clock.now());
+  EXPECT_EQ(run().phase, SkillPhase::Done) << status.text;
+}
+
 TEST_F(MoveArmTest, CheckAnswersWithoutMoving) {
   const auto good = skill.check(flangeForCamera(robot, {1.25, 0, 1.1}));
   ASSERT_TRUE(good.has_value()) << good.error();

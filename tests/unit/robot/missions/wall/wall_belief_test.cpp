@@ -14,7 +14,10 @@ WallBelief known() {
   PileBrick brick{BrickKind::Blue, BrickState::Found, Eigen::Isometry3d::Identity(), 0.9};
   brick.X_map_brick =
       Eigen::Translation3d(1.0, 2.0, 0.5) * Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitZ());
+  brick.taken = true;
   belief.bricks = {brick};
+  belief.stored = 3;
+  belief.held = HeldBrick{"brick 4", BrickKind::Red, brick.X_map_brick, 0.98};
   belief.pile_looks = 2;
   belief.marker_looks = 1;
   return belief;
@@ -31,6 +34,11 @@ TEST(WallBelief, ComesBackAsItWasSaved) {
   EXPECT_EQ(back->bricks[0].state, BrickState::Found);
   EXPECT_TRUE(back->bricks[0].X_map_brick.isApprox(known().bricks[0].X_map_brick, 1e-12));
   EXPECT_DOUBLE_EQ(back->bricks[0].confidence, 0.9);
+  EXPECT_TRUE(back->bricks[0].taken);
+  EXPECT_EQ(back->stored, 3u);
+  ASSERT_TRUE(back->held.has_value());
+  EXPECT_EQ(back->held->name, "brick 4");
+  EXPECT_TRUE(back->held->X_tool_brick.isApprox(known().held->X_tool_brick, 1e-12));
   EXPECT_EQ(back->pile_looks, 2);
   EXPECT_EQ(back->marker_looks, 1);
 }
@@ -42,7 +50,7 @@ TEST(WallBelief, WhatIsDamagedIsRefusedByName) {
     return belief ? std::string() : belief.error().message;
   };
   nlohmann::json far = good, none = good, nan = good, looks = good, shape = good, kind = good,
-                 state = good, turn = good, sure = good;
+                 state = good, turn = good, sure = good, held = good;
   far["pile"]["x_m"] = 1e9;
   none.erase("wall");
   nan["pile"]["covariance"][4] = nullptr;
@@ -50,9 +58,10 @@ TEST(WallBelief, WhatIsDamagedIsRefusedByName) {
   shape["pile"]["covariance"] = {1.0, 2.0};
   kind["bricks"][0]["kind"] = "pink";
   state["bricks"][0]["state"] = "gone";
-  turn["bricks"][0]["wxyz"] = {0.0, 0.0, 0.0, 0.0};
+  turn["bricks"][0]["pose"]["wxyz"] = {0.0, 0.0, 0.0, 0.0};
   sure["bricks"][0]["confidence"] = 1.5;
-  for (const auto& bad : {kind, state, turn, sure}) EXPECT_NE(refused(bad), "") << bad;
+  held["held"]["in_tool"]["xyz_m"][1] = nullptr;
+  for (const auto& bad : {kind, state, turn, sure, held}) EXPECT_NE(refused(bad), "") << bad;
   EXPECT_NE(refused(far).find("pile"), std::string::npos);
   EXPECT_NE(refused(none).find("wall"), std::string::npos);
   EXPECT_NE(refused(nan), "");

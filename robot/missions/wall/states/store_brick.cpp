@@ -1,0 +1,194 @@
+#include "robot/missions/wall/states/store_brick.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "common/core/log.h"
+#include "common/core/units.h"
+#include "robot/missions/wall/states/drive_to_marker.h"
+#include "robot/missions/wall/states/drive_to_stack.h"
+#include "robot/missions/wall/states/locate_bricks.h"
+#include "robot/missions/wall/states/take_brick.h"
+#include "robot/missions/wall/states/wall_given_up.h"
+
+namespace kiln {
+namespace {
+
+constexpr double kStep_m = 0.05;  // between the positions of a compartment that are tried
+constexpr double kDoor_m = 0.22;  // before a seat the walls of its bin begin
+
+constexpr std::array kAskew{0, 1, -1, 2, -2};
+
+}  // namespace
+
+void StoreBrick::enter() {
+  WallContext& c = context();
+  stage_ = Stage::Choosing;
+  tried_ = 0;
+  inserts_ = 0;
+  aside_m_ = 0.0;
+  side_ = 0;
+  turned_ = 0;
+  between_ = false;
+  postures_.clear();
+  if (!c.belief.held || c.loaded() || !c.hands) return;
+  c.handleBricks();
+  // The arm holds meanwhile, with what hangs on it.
+  c.parts.arm_control->carry(c.belief.held->payload(c.parts.robot));
+  const StorageStep& step = c.load().storage.load[c.belief.stored];
+  const CompartmentConfig& row = c.parts.robot.storage[step.seat.compartment];
+  const double planned_m = step.posture[step.seat.compartment];
+  postures_.push_back(step.posture);
+  for (double at = row.travel_min_m; at <= row.travel_max_m; at += kStep_m) {
+    postures_.push_back(step.posture);
+    postures_.back()[step.seat.compartment] = at;
+  }
+  const auto way = [&](const StoragePosture& p) {
+    return std::abs(p[step.seat.compartment] - planned_m);
+  };
+  std::stable_sort(postures_.begin(), postures_.end(),
+                   [&](const auto& a, const auto& b) { return way(a) < way(b); });
+}
+
+Transition StoreBrick::execute() {
+  const WallContext& c = context();
+  if (!c.belief.held || c.loaded() || !c.hands)
+    return transit<LocateBricks>().because("no brick hangs on the gripper");
+  switch (stage_) {
+    case Stage::Choosing:
+      return choosePosture();
+    case Stage::Travelling:
+      return pollTravel();
+    case Stage::Storing:
+      return pollStore();
+    case Stage::DrawingBack:
+      return drawBack();
+  }
+  return stay();
+}
+
+/// One a tick: where the compartment has to stand for the arm to reach the bin.
+Transition StoreBrick::choosePosture() {
+  WallContext& c = context();
+  const auto reached = c.checkSeat(postures_[tried_]);
+  if (reached) {
+    stage_ = Stage::Travelling;
+    c.hands->travel.start(postures_[tried_], now());
+    return stay();
+  }
+  if (++tried_ < postures_.size()) return stay();
+  return failed("its bin is out of the arm's reach: " + reached.error().message);
+}
+
+Transition StoreBrick::pollTravel() {
+  WallContext& c = context();
+  const SkillStatus travel = c.hands->travel.poll(now());
+  display(c.belief.held->name + ": " + travel.text);
+  if (travel.phase == SkillPhase::Failed) return failed(travel.text);
+  if (travel.phase != SkillPhase::Done) return stay();
+  stage_ = Stage::Storing;
+  beginStore();
+  return stay();
+}
+
+void StoreBrick::beginStore() {
+  WallContext& c = context();
+  const LoadingConfig& loading = c.config.loading;
+  const double half_m = 0.5 * brickShape(c.belief.held->kind).length_m;
+  const double askew_rad = loading.askew_m / half_m * kAskew[turned_ % kAskew.size()];
+  const auto at = [&](double out_m, double up_m) -> Eigen::Isometry3d {
+    return c.X_base_seat(postures_[tried_], out_m, up_m) * Eigen::Translation3d(0, aside_m_, 0) *
+           Eigen::AngleAxisd(askew_rad, Eigen::Vector3d::UnitZ());
+  };
+  const double front_m = loading.seat_front_m;
+  c.hands->store.start({*c.belief.held,
+                        at(front_m, 0.0),
+                        c.aroundHands(),
+                        std::nullopt,
+                        {at(loading.before_m, loading.over_m), at(kDoor_m, loading.over_m),
+                         at(2.0 * front_m, loading.over_m)}},
+                       now());
+}
+
+Transition StoreBrick::pollStore() {
+  WallContext& c = context();
+  const SkillStatus store = c.hands->store.poll(now());
+  display(c.belief.held->name + ": " + store.text);
+  if (store.phase == SkillPhase::Failed) {
+    if (c.hands->store.drop()) c.belief.held.reset();
+    if (c.belief.held && store.failure_code == "contact" &&
+        ++inserts_ < c.config.loading.max_tries) {
+      met_ = store.text;
+      giveWay();
+      logger("wall")->info("{}, place {}: {}", c.belief.held->name, inserts_, met_);
+      stage_ = Stage::DrawingBack;
+      c.parts.arm.startBack(c.config.loading.back_s, now());
+      return stay();
+    }
+    const bool from_elsewhere =
+        store.failure_code == "in_collision" || store.failure_code == "unreachable";
+    if (c.belief.held && from_elsewhere && ++tried_ < postures_.size()) {
+      stage_ = Stage::Choosing;
+      return stay();
+    }
+    return failed(store.text);
+  }
+  if (store.phase != SkillPhase::Done) return stay();
+  const std::string name = c.belief.held->name;
+  c.belief.held.reset();
+  ++c.belief.stored;
+  c.belief.handling_faults = 0;
+  const std::string how_far =
+      fmt::format("{} stands in the storage, {} of {}", name, c.belief.stored, c.toStore());
+  if (c.loaded()) return transit<DriveToMarker>().because(how_far);
+  const auto next = c.nextBrick();
+  if (!next) return transit<LocateBricks>().because(how_far);
+  if (c.standsAt(c.takingPose(*next))) return transit<TakeBrick>().because(how_far);
+  return transit<DriveToStack>().because(how_far);
+}
+
+/// Away from the side on which it met the wall, by the lever of what the wrist feels there. When that
+/// was the one side and now is the other, it belongs between them; if it does not fit there either,
+/// it is turned.
+void StoreBrick::giveWay() {
+  const WallContext& c = context();
+  const auto arm = c.parts.arm_device.state();
+  if (!arm) return;
+  const Eigen::Matrix3d R = c.X_base_seat(postures_[tried_]).linear().transpose() *
+                            c.parts.robot.X_base_armbase.pose().linear();
+  const Eigen::Vector3d force = R * arm->wrench_tool.head<3>();
+  const Eigen::Vector3d torque = R * arm->wrench_tool.tail<3>();
+  const int side = torque.x() * force.z() > 0.0 ? 1 : -1;  // Y of the seat, pushed out along its Z
+  double step_m = c.config.loading.aside_m;
+  if (between_) {
+    ++turned_;
+    side_ = 0;
+  }
+  between_ = side_ == -side;
+  if (between_ || (side_ == 0 && turned_ > 0)) step_m *= 0.5;
+  side_ = side;
+  aside_m_ -= side * step_m;
+}
+
+/// Where it came from, then in again a little beside: what hangs is known to some millimetres only.
+Transition StoreBrick::drawBack() {
+  WallContext& c = context();
+  const SkillStatus back = c.parts.arm.poll(now());
+  display(c.belief.held->name + " is drawn back: " + met_);
+  if (back.phase == SkillPhase::Failed) return failed(met_ + "; and back: " + back.text);
+  if (back.phase != SkillPhase::Done) return stay();
+  stage_ = Stage::Storing;
+  beginStore();
+  return stay();
+}
+
+Transition StoreBrick::failed(const std::string& why) {
+  WallContext& c = context();
+  if (++c.belief.handling_faults > c.config.loading.max_faults)
+    return transit<WallGivenUp>().because("a brick cannot be stored: " + why);
+  if (!c.belief.held) return transit<LocateBricks>().because(why);
+  return transit<StoreBrick>().because("once more: " + why);
+}
+
+}  // namespace kiln

@@ -1,0 +1,44 @@
+#pragma once
+
+#include "robot/missions/wall/wall_state.h"
+
+namespace kiln {
+
+class DriveToMarker;
+class DriveToStack;
+class LocateBricks;
+
+/// Sets the brick on the gripper into its bin (paper, "Storage System"): the compartments travel to
+/// where the plan wants them, then it is set in upright from the front.
+class StoreBrick
+    : public WallState<StoreBrick, To<DriveToMarker, DriveToStack, LocateBricks, TakeBrick>> {
+ public:
+  static constexpr const char* kGroup = kManipulation;
+  static constexpr const char* kDoc = "Sets the brick on the gripper into its bin";
+  static constexpr const char* kConsequence =
+      "The storage travels, then the arm carries the brick into a bin and lets it go";
+  static constexpr bool kMayHold = true;
+  void enter() override;
+  Transition execute() override;
+
+ private:
+  [[nodiscard]] Transition choosePosture();
+  [[nodiscard]] Transition pollTravel();
+  [[nodiscard]] Transition pollStore();
+  [[nodiscard]] Transition drawBack();
+  void beginStore();
+  void giveWay();
+  [[nodiscard]] Transition failed(const std::string& why);
+  enum class Stage { Choosing, Travelling, Storing, DrawingBack };
+  Stage stage_ = Stage::Choosing;
+  std::vector<StoragePosture> postures_;  ///< to be tried, the planned one first
+  std::size_t tried_ = 0;
+  int inserts_ = 0;
+  double aside_m_ = 0.0;  ///< of the seat's middle, along its Y
+  int side_ = 0;          ///< on which it met something last
+  bool between_ = false;  ///< tried between two places where it met the one and the other side
+  std::size_t turned_ = 0;
+  std::string met_;
+};
+
+}  // namespace kiln
