@@ -53,10 +53,11 @@ struct LoadingConfig {
   PickBrick::Config pick;
   PlaceBrick::Config store;
   MoveStorage::Config travel;
+  /// A bin stands where it is known to, and how long a brick hangs below the face is not.
   LoadingConfig() {
     store.beyond_m = 0.006;
     store.early_m = 0.06;
-  }  ///< a bin stands where it is known to
+  }
   void visit(ConfigArchive& a);
 };
 

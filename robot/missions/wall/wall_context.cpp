@@ -242,6 +242,7 @@ void WallContext::halt() {
   pile.clear();
   bricks.clear();
   marker.clear();
+  siteMoved();
 }
 
 }  // namespace kiln

@@ -70,12 +70,13 @@ class WallContext {
                                               double up_m = 0.0) const;
   /// Can the arm bring the held brick there? Error: what hinders it. @pre a brick is held
   [[nodiscard]] Result<void> checkSeat(const StoragePosture& posture) const;
-  /// While bricks are handled each of them is an obstacle by itself, and not their stack.
+  /// Until the next halt() each brick is an obstacle by itself, told with the arm's motions, and not
+  /// their stacks: the base must rest.
   void handleBricks();
 
   /// Something of the site was found: what everybody plans with follows.
   void siteMoved();
-  /// Arm and base come to rest, nobody looks.
+  /// Arm, base and storage come to rest, nobody looks; what stands around is as it is believed.
   void halt();
 };
 

@@ -28,6 +28,15 @@ nlohmann::json WallMission::save() const { return wallBeliefToJson(context_.beli
 Result<void> WallMission::restore(const nlohmann::json& saved) {
   auto belief = wallBeliefFromJson(saved);
   if (!belief) return tl::make_unexpected(belief.error());
+  const std::size_t places = context_.load().storage.load.size();
+  const std::size_t bricks = context_.site.layout().slots().size();
+  if (belief->stored > places || (!belief->bricks.empty() && belief->bricks.size() != bricks) ||
+      (belief->held && belief->stored >= places))
+    return makeError(
+        ErrorCode::InvalidInput,
+        "the checkpoint knows of {} bricks in the pile and {} in the storage, this site "
+        "has {} and places for {}: it is of another site or blueprint",
+        belief->bricks.size(), belief->stored, bricks, places);
   context_.belief = *belief;
   context_.siteMoved();
   return {};

@@ -12,7 +12,6 @@
 #include "robot/missions/wall/states/drive_to_marker.h"
 #include "robot/missions/wall/states/drive_to_pile.h"
 #include "robot/missions/wall/states/drive_to_stack.h"
-#include "robot/missions/wall/states/store_brick.h"
 #include "robot/missions/wall/states/take_brick.h"
 #include "robot/missions/wall/states/wall_given_up.h"
 
