@@ -91,7 +91,7 @@ expect_status 143 $? "a demo ended by SIGTERM"
 until_true 10 ended "$world" || fail "the world outlived a killed demo"
 
 # Bad arguments start nothing.
-for arguments in "castle" "--seed x" "--seed" "--out" "--sideways" "--world none" "--world" "--blueprint resources/blueprints/lab.txt" "wall --blueprint none.txt"; do
+for arguments in "castle" "--seed x" "--seed" "--out" "--sideways" "--world none" "--world" "--blueprint resources/blueprints/lab.txt" "wall --blueprint none.txt" "--bricks 5" "wall --bricks x"; do
   # shellcheck disable=SC2086
   demo success $arguments
   expect_status 1 $? "kiln demo $arguments"

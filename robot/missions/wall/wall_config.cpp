@@ -28,6 +28,7 @@ void LoadingConfig::visit(ConfigArchive& a) {
   a.field("before_m", before_m, "m", 0.1, 0.8, "way into a bin: from so far before it");
   a.field("over_m", over_m, "m", 0.01, 0.3, "and so far above its floor");
   a.field("aside_m", aside_m, "m", 0, 0.05, "so far beside, where it met a wall of its bin");
+  a.field("most_aside_m", most_aside_m, "m", 0, 0.1, "but not farther beside");
   a.field("askew_m", askew_m, "m", 0, 0.05, "and turned, its ends so far beside");
   a.field("max_tries", max_tries, "", 1, 50, "of setting a brick into its bin");
   a.field("back_s", back_s, "s", 0.5, 20, "drawn back by what the arm did that long");

@@ -46,7 +46,7 @@ struct LoadingConfig {
   double before_m = 0.35, over_m = 0.10;  ///< way into a bin: so far before it, and above its floor
   /// What meets a wall of its bin is set in beside it, and turned so that its ends are so far beside:
   /// a bin has 2.5 mm to spare on each side.
-  double aside_m = 0.002, askew_m = 0.0025;
+  double aside_m = 0.002, most_aside_m = 0.008, askew_m = 0.0025;
   int max_tries = 25;
   double back_s = 3.0;  ///< and is drawn back by what the arm did that long
   int max_faults = 3;   ///< of pick or store in a row

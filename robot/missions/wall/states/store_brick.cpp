@@ -149,8 +149,8 @@ Transition StoreBrick::pollStore() {
 }
 
 /// Away from the side on which it met the wall, by the lever of what the wrist feels there. When that
-/// was the one side and now is the other, it belongs between them; if it does not fit there either,
-/// it is turned.
+/// was the one side and now is the other, it belongs between them. If it does not fit there either,
+/// or not within what it can be beside, it is turned and tried in the middle.
 void StoreBrick::giveWay() {
   const WallContext& c = context();
   const auto arm = c.parts.arm_device.state();
@@ -160,15 +160,19 @@ void StoreBrick::giveWay() {
   const Eigen::Vector3d force = R * arm->wrench_tool.head<3>();
   const Eigen::Vector3d torque = R * arm->wrench_tool.tail<3>();
   const int side = torque.x() * force.z() > 0.0 ? 1 : -1;  // Y of the seat, pushed out along its Z
-  double step_m = c.config.loading.aside_m;
-  if (between_) {
+  const LoadingConfig& loading = c.config.loading;
+  const bool flipped = side_ == -side;
+  const double aside_m = aside_m_ - side * loading.aside_m * (flipped ? 0.5 : 1.0);
+  if (between_ || std::abs(aside_m) > loading.most_aside_m) {
     ++turned_;
     side_ = 0;
+    between_ = false;
+    aside_m_ = 0.0;
+    return;
   }
-  between_ = side_ == -side;
-  if (between_ || (side_ == 0 && turned_ > 0)) step_m *= 0.5;
+  between_ = flipped;
   side_ = side;
-  aside_m_ -= side * step_m;
+  aside_m_ = aside_m;
 }
 
 /// Where it came from, then in again a little beside: what hangs is known to some millimetres only.
