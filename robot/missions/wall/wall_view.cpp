@@ -52,8 +52,10 @@ SceneItem nameItem(const char* layer, const std::string& name, const Pose2& X_ma
 void addBricks(const WallContext& context, std::vector<SceneItem>& out) {
   int number = 0;
   for (const PileBrick& brick : context.belief.bricks) {
+    ++number;
+    if (brick.taken) continue;
     const bool trusted = brick.confidence > context.config.brick_look.trusted;
-    out.push_back(brickItem(kPile, fmt::format("brick {}", ++number), brick.X_map_brick, brick.kind,
+    out.push_back(brickItem(kPile, fmt::format("brick {}", number), brick.X_map_brick, brick.kind,
                             trusted ? ItemStyle::Sensed : ItemStyle::Configured,
                             trusted ? 1.6 : 1.0));
     if (!trusted)
