@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "common/core/error.h"
@@ -21,6 +22,13 @@ class BaseMotion {
   virtual void cancel() = 0;  ///< base ramps to rest
 };
 
+/// Straight lines that the arm is to follow once it is at its goal.
+struct LineAhead {
+  std::vector<Eigen::Isometry3d> X_base_flange;
+  std::vector<std::string> touchable;  ///< of the boxes around: may be touched on them
+  double clearance_m = 0.0;            ///< kept on them
+};
+
 /// What differs from the skill's configuration in the moves that begin under it.
 struct ArmMoveTerms {
   std::optional<double> line_speed_mps, guard_force_n, clearance_m, joint_accel_radps2, speed_scale;
@@ -28,6 +36,8 @@ struct ArmMoveTerms {
   std::optional<OrientedBox> carried;  ///< a box fixed to the flange, in flange axes
   bool keep_tilt = false;  ///< joint moves turn what is carried about the vertical alone
   bool watch = true;       ///< the live cloud may forbid it
+  /// Of the postures at the pose that is asked for only those from which these can be followed.
+  std::optional<LineAhead> ahead;
 };
 
 /// The arm as missions see it: collision-checked, guarded motion to joint or Cartesian goals.

@@ -26,6 +26,7 @@ constexpr double kTouched = 0.5;
 // Part of the guard force: so much more than at its start may press on a move that leaves a
 // contact.
 constexpr double kPressedHarder = 0.5;
+constexpr double kAheadStep_m = 0.02;  // along a line that is only looked at
 
 struct PoseGoal {
   Eigen::Isometry3d X_base_flange;
@@ -182,6 +183,8 @@ struct MoveArm::Impl {
       return !hasRoom(collision, q, clearance(terms), nearest);
     });
     if (goals.empty()) return fail("in_collision", "the goal is too near: " + nearest, now);
+    if (auto kept = keepWithLine(terms, goals); !kept)
+      return fail(failureOf(kept.error()), kept.error().message, now);
     enter(Stage::Planning, now);
     return proceed(planner.start(q_start, goals, {clearance(terms), terms.keep_tilt}), now);
   }
@@ -195,14 +198,36 @@ struct MoveArm::Impl {
     demand.clearance_m = clearance(terms);
     auto paths =
         cartesianPaths(robot, collision, demand, q_start, lines.X_base_flange, lines.blend);
-    if (!paths) {
-      const bool near = paths.error().code == ErrorCode::Refused;
-      return fail(near ? "in_collision" : "unreachable", paths.error().message, now);
-    }
+    if (!paths) return fail(failureOf(paths.error()), paths.error().message, now);
     JointPathLimits limits = jointLimits();
     limits.path_speed = terms.line_speed_mps.value_or(config.cartesian_speed_mps);
     limits.path_accel = config.cartesian_accel_mps2;
     return begin(std::move(*paths), limits, now);
+  }
+
+  static const char* failureOf(const Error& error) {
+    return error.code == ErrorCode::Refused ? "in_collision" : "unreachable";
+  }
+
+  /// Leaves those from which the line ahead can be followed. Error: none is left, and why not from
+  /// the first one.
+  Result<void> keepWithLine(const ArmMoveTerms& of, std::vector<Vector6d>& goals) const {
+    if (!of.ahead) return {};
+    ArmCollision world(robot);
+    world.setScene(obstacles(arena), pose(), {of.scene.boxes, of.ahead->touchable});
+    world.setCarried(of.carried);
+    CartesianPathConfig demand = config.cartesian;
+    demand.clearance_m = of.ahead->clearance_m;
+    demand.step_m = kAheadStep_m;
+    std::optional<Error> why;
+    std::erase_if(goals, [&](const Vector6d& q) {
+      const auto paths =
+          cartesianPaths(robot, world, demand, q, of.ahead->X_base_flange, /*blend=*/false);
+      if (!paths && !why) why = paths.error();
+      return !paths;
+    });
+    if (!goals.empty() || !why) return {};
+    return tl::make_unexpected(*why);
   }
 
   SkillStatus planTimed(const TimedGoal& timed, Stamp now) {
@@ -322,16 +347,19 @@ struct MoveArm::Impl {
 
   Result<Vector6d> check(const Eigen::Isometry3d& X_base_flange) const {
     const std::optional<ArmState> state = arm.state();
-    const auto goals = posturesFor(robot, X_base_flange, state ? state->q : Vector6d::Zero());
+    auto goals = posturesFor(robot, X_base_flange, state ? state->q : Vector6d::Zero());
     if (goals.empty()) return makeError(ErrorCode::Degenerate, "no arm posture reaches the pose");
     ArmCollision world(robot);
     world.setScene(obstacles(arena), pose(), next_terms.scene);
     world.setCarried(next_terms.carried);
     std::string nearest;
-    for (const Vector6d& q : goals) {
-      if (hasRoom(world, q, clearance(next_terms), nearest)) return q;
-    }
-    return makeError(ErrorCode::Refused, "the pose is too near: {}", nearest);
+    std::erase_if(goals, [&](const Vector6d& q) {
+      return !hasRoom(world, q, clearance(next_terms), nearest);
+    });
+    if (goals.empty()) return makeError(ErrorCode::Refused, "the pose is too near: {}", nearest);
+    if (auto kept = keepWithLine(next_terms, goals); !kept)
+      return tl::make_unexpected(kept.error());
+    return goals.front();
   }
 
   Config config;

@@ -15,7 +15,18 @@ bool trustedIn(const PileBrick& brick, double trusted) {
   return !brick.taken && brick.confidence > trusted;
 }
 
-/// The motion on the ground that takes the trusted bricks from before to where they are seen.
+/// Across its length and turned as it is seen now, along it where it was before.
+PileBrick alongAsBefore(const PileBrick& now, const PileBrick& before) {
+  PileBrick out = before;
+  out.X_map_brick = now.X_map_brick;
+  const Eigen::Vector3d along = now.X_map_brick.linear().col(0);
+  const Eigen::Vector3d off = before.X_map_brick.translation() - now.X_map_brick.translation();
+  out.X_map_brick.translation() += off.dot(along) * along;
+  return out;
+}
+
+}  // namespace
+
 Eigen::Isometry3d commonMotion(const std::vector<PileBrick>& before,
                                const std::vector<PileBrick>& seen, double trusted) {
   std::vector<Eigen::Vector2d> from, to;
@@ -43,18 +54,6 @@ Eigen::Isometry3d commonMotion(const std::vector<PileBrick>& before,
   out.translation().head<2>() = b - (out.linear().topLeftCorner<2, 2>() * a);
   return out;
 }
-
-/// Across its length and turned as it is seen now, along it where it was before.
-PileBrick alongAsBefore(const PileBrick& now, const PileBrick& before) {
-  PileBrick out = before;
-  out.X_map_brick = now.X_map_brick;
-  const Eigen::Vector3d along = now.X_map_brick.linear().col(0);
-  const Eigen::Vector3d off = before.X_map_brick.translation() - now.X_map_brick.translation();
-  out.X_map_brick.translation() += off.dot(along) * along;
-  return out;
-}
-
-}  // namespace
 
 std::vector<PileBrick> merged(const std::vector<PileBrick>& before,
                               const std::vector<PileBrick>& seen, double trusted) {

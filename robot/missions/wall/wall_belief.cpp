@@ -133,6 +133,8 @@ Result<std::optional<FoundFrame>> frameFrom(const json& saved, const char* name)
 json wallBeliefToJson(const WallBelief& belief) {
   json bricks = json::array();
   for (const PileBrick& brick : belief.bricks) bricks.push_back(toJson(brick));
+  json built = json::array();
+  for (const Eigen::Isometry3d& X_wall_brick : belief.built) built.push_back(toJson(X_wall_brick));
   return {{"pile", toJson(belief.pile)},
           {"bricks", bricks},
           {"wall", toJson(belief.wall)},
@@ -142,6 +144,8 @@ json wallBeliefToJson(const WallBelief& belief) {
           {"drive_faults", belief.drive_faults},
           {"handling_faults", belief.handling_faults},
           {"stored", belief.stored},
+          {"taken_out", belief.taken_out},
+          {"built", built},
           {"held", toJson(belief.held)}};
 }
 
@@ -159,8 +163,19 @@ Result<WallBelief> wallBeliefFromJson(const json& saved) {
     if (!held) return tl::make_unexpected(held.error());
     out.held = *held;
     out.stored = saved.at("stored").get<std::size_t>();
-    if (out.stored > kMostBricks)
-      return makeError(ErrorCode::InvalidInput, "{} bricks in the storage", out.stored);
+    out.taken_out = saved.at("taken_out").get<std::size_t>();
+    for (const json& node : saved.at("built")) {
+      auto X = poseFrom(node);
+      if (!X) return tl::make_unexpected(X.error());
+      out.built.push_back(*X);
+    }
+    // One of those that were taken out may hang on the gripper.
+    const std::size_t not_set = out.held ? 1 : 0;
+    if (out.stored > kMostBricks || out.taken_out > out.stored ||
+        out.built.size() > out.taken_out || out.taken_out > out.built.size() + not_set)
+      return makeError(ErrorCode::InvalidInput,
+                       "{} bricks were stored, {} taken out, {} set and {} held", out.stored,
+                       out.taken_out, out.built.size(), not_set);
     if (saved.at("bricks").size() > kMostBricks)
       return makeError(ErrorCode::InvalidInput, "a pile of {} bricks", saved.at("bricks").size());
     for (const json& node : saved.at("bricks")) {

@@ -34,11 +34,15 @@ struct WallBelief {
   std::optional<FoundFrame> wall;  ///< wall frame on the ground, by the marker
   std::vector<PileBrick> bricks;   ///< as the pile's layout has them; empty: not looked at yet
   int pile_looks = 0, brick_looks = 0, marker_looks = 0;
-  int drive_faults = 0;     ///< in a row
-  int handling_faults = 0;  ///< in a row
-  /// Bricks in the storage: so many steps of the plan's load are done.
-  std::size_t stored = 0;
-  std::optional<HeldBrick> held;  ///< on the face; in the plan it is the next one to be stored
+  int drive_faults = 0;       ///< in a row
+  int handling_faults = 0;    ///< in a row
+  std::size_t stored = 0;     ///< so many steps of the plan's load were done
+  std::size_t taken_out = 0;  ///< and so many of its steps of unloading
+  /// What was set, in the order of building, as it was let go: X_wall_brick.
+  std::vector<Eigen::Isometry3d> built;
+  /// On the face. In the plan it is the one that was taken out last, unless that is built already:
+  /// then the next one to be stored.
+  std::optional<HeldBrick> held;
 };
 
 [[nodiscard]] nlohmann::json wallBeliefToJson(const WallBelief& belief);

@@ -24,9 +24,6 @@ void LoadingConfig::visit(ConfigArchive& a) {
   a.field("left_m", left_m, "m", -0.5, 0.5, "the stack, to the left of the base's middle");
   a.field("same_m", same_m, "m", 0, 0.5, "nearer to its stand the base need not drive");
   a.field("same_deg", same_deg, "deg", 0, 30, "the same of its direction");
-  a.field("seat_front_m", seat_front_m, "m", 0, 0.1, "set down so far before its seat");
-  a.field("before_m", before_m, "m", 0.1, 0.8, "way into a bin: from so far before it");
-  a.field("over_m", over_m, "m", 0.01, 0.3, "and so far above its floor");
   a.field("aside_m", aside_m, "m", 0, 0.05, "so far beside, where it met a wall of its bin");
   a.field("most_aside_m", most_aside_m, "m", 0, 0.1, "but not farther beside");
   a.field("askew_m", askew_m, "m", 0, 0.05, "and turned, its ends so far beside");
@@ -36,6 +33,15 @@ void LoadingConfig::visit(ConfigArchive& a) {
   a.section("pick", pick, "taking a brick");
   a.section("store", store, "setting it into its bin");
   a.section("travel", travel, "the storage's compartments");
+}
+
+void BuildingConfig::visit(ConfigArchive& a) {
+  a.field("distance_m", distance_m, "m", 0.5, 2, "of the base's middle from the middle of the leg");
+  a.field("out_m", out_m, "m", 0.1, 0.8, "what was taken from a bin is led so far before it");
+  a.field("back_s", back_s, "s", 0.5, 20, "drawn back by what the arm did that long");
+  a.field("max_faults", max_faults, "", 0, 20, "of taking out, setting or looking in a row");
+  a.section("take_out", take_out, "taking a brick out of its bin");
+  a.section("set", set, "setting it into the wall");
 }
 
 void MarkerLookConfig::visit(ConfigArchive& a) {
@@ -54,6 +60,7 @@ void WallConfig::visit(ConfigArchive& a) {
   a.section("pile_look", pile_look, "from where the pile is looked for");
   a.section("brick_look", brick_look, "where each brick of the pile lies");
   a.section("loading", loading, "how the bricks of the pile come into the storage");
+  a.section("building", building, "how the bricks come out of the storage and into the wall");
   a.section("marker_look", marker_look, "from where the wall's marker is looked for");
   a.section("look", look, "sweeps of the LiDAR");
   a.section("pile", pile, "pile in the cloud");

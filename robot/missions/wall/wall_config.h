@@ -42,8 +42,6 @@ struct LoadingConfig {
   double left_m = 0.05;   ///< and the brick so far to the left of the arm's middle
   double same_m = 0.15;   ///< nearer to its stand the base need not drive
   double same_deg = 10.0;
-  double seat_front_m = 0.01;  ///< set down so far before its seat: it slides back into it
-  double before_m = 0.35, over_m = 0.10;  ///< way into a bin: so far before it, and above its floor
   /// What meets a wall of its bin is set in beside it, and turned so that its ends are so far beside:
   /// a bin has 2.5 mm to spare on each side.
   double aside_m = 0.002, most_aside_m = 0.008, askew_m = 0.0025;
@@ -58,6 +56,18 @@ struct LoadingConfig {
     store.beyond_m = 0.006;
     store.early_m = 0.06;
   }
+  void visit(ConfigArchive& a);
+};
+
+/// How the bricks come out of the storage and into the wall.
+struct BuildingConfig {
+  double distance_m = 1.05;  ///< of the base's middle from the middle of the leg that it builds
+  double out_m = 0.35;       ///< what was taken from a bin is led so far before it
+  double back_s = 4.0;       ///< what met something is drawn back by what the arm did that long
+  int max_faults = 3;        ///< of taking out, setting or looking in a row
+  PickBrick::Config take_out;
+  PlaceBrick::Config set;
+  BuildingConfig() { take_out.lift_m = 0.04; }
   void visit(ConfigArchive& a);
 };
 
@@ -80,6 +90,7 @@ struct WallConfig {
   PileLookConfig pile_look;
   BrickLookConfig brick_look;
   LoadingConfig loading;
+  BuildingConfig building;
   MarkerLookConfig marker_look;
   SweepLook::Config look;
   PileTask::Config pile;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "common/core/units.h"
+#include "common/robot_model/robot_calibration.h"
 
 namespace kiln {
 namespace {
@@ -15,6 +16,8 @@ double aside(int look) {
   const int step = (look + 1) / 2;
   return look % 2 == 1 ? -step : step;
 }
+
+std::string wallName(std::size_t built) { return fmt::format("wall brick {}", built + 1); }
 
 /// Before a line along X of the frame, at x, looking at it.
 Pose2 before(const Pose2& X_map_frame, double x_m, double distance_m) {
@@ -33,7 +36,8 @@ WallContext::WallContext(const MissionParts& mission_parts, const WallConfig& wa
       look(wall_config.look, mission_parts),
       pile(wall_config.pile, site_map, mission_parts.executor),
       bricks(mission_parts.executor, "bricks", wall_config.brick_look.latency_s),
-      marker(wall_config.marker, mission_parts) {
+      marker(wall_config.marker, mission_parts),
+      room_(StorageRoom::of(parts.robot)) {
   if (!parts.gripper || !parts.storage || !parts.arm_control) return;
   const HandlingParts handling{parts.robot, parts.arm, *parts.arm_control, parts.arm_device,
                                *parts.gripper};
@@ -41,6 +45,8 @@ WallContext::WallContext(const MissionParts& mission_parts, const WallConfig& wa
   for (const CompartmentConfig& row : parts.robot.storage) rows.push_back(row.name);
   const LoadingConfig& loading = config.loading;
   hands.emplace(Hands{PickBrick(loading.pick, handling), PlaceBrick(loading.store, handling),
+                      PickBrick(config.building.take_out, handling),
+                      PlaceBrick(config.building.set, handling),
                       MoveStorage(loading.travel, *parts.storage, std::move(rows))});
 }
 
@@ -87,9 +93,9 @@ ExpectedBricks WallContext::expectedBricks() const {
   return out;
 }
 
-void WallContext::askForBricks(std::shared_ptr<const BrickSweep> sweep) {
+void WallContext::askForBricks(std::shared_ptr<const BrickSweep> sweep, BrickTarget target) {
   bricks.ask([config = config.bricks, sweep = std::move(sweep),
-              target = expectedBricks().target]() -> Result<BrickSight> {
+              target = std::move(target)]() -> Result<BrickSight> {
     return BrickPerception(config).perceive(*sweep, target);
   });
 }
@@ -97,6 +103,61 @@ void WallContext::askForBricks(std::shared_ptr<const BrickSweep> sweep) {
 std::size_t WallContext::toStore() const {
   if (!hands) return 0;
   return std::min(static_cast<std::size_t>(config.loading.bricks), load().storage.load.size());
+}
+
+bool WallContext::anyTaken() const {
+  return std::any_of(belief.bricks.begin(), belief.bricks.end(),
+                     [](const PileBrick& brick) { return brick.taken; });
+}
+
+const StorageStep& WallContext::heldStep() const {
+  const StoragePlan& storage = load().storage;
+  return unloading() ? storage.unload[belief.taken_out - 1] : storage.load[belief.stored];
+}
+
+Pose2 WallContext::buildingPose() const {
+  std::size_t before = 0;
+  const WallSlot& slot = plan.slots[load().slots[belief.built.size()]];
+  const double away_m = config.building.distance_m;
+  for (const BuildPosition& position : load().order.positions) {
+    before += position.slots.size();
+    if (belief.built.size() >= before) continue;
+    // Who stands there sees the leg run from left to right.
+    const Eigen::Vector3d p = slot.X_wall_brick.translation();
+    const Pose2 X_wall_stand = slot.leg == WallLeg::Mixed
+                                   ? Pose2{position.base_m, p.y() - away_m, M_PI / 2.0}
+                                   : Pose2{p.x() + away_m, position.base_m, M_PI};
+    return X_map_wall() * X_wall_stand;
+  }
+  return parts.pose();
+}
+
+Eigen::Isometry3d WallContext::X_wall_slot() const {
+  return plan.slots[load().slots[belief.built.size()]].X_wall_brick;
+}
+
+std::optional<Eigen::Vector3d> WallContext::towardsNeighbour() const {
+  const WallSlot& slot = plan.slots[load().slots[belief.built.size()]];
+  const Eigen::Vector3d along =
+      slot.leg == WallLeg::Mixed ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY();
+  for (std::size_t i = 0; i < belief.built.size(); ++i) {
+    const WallSlot& other = plan.slots[load().slots[i]];
+    if (other.layer != slot.layer) continue;
+    if (other.index + 1 == slot.index) return -along;
+    if (other.index == slot.index + 1) return along;
+  }
+  return std::nullopt;
+}
+
+ExpectedBricks WallContext::expectedWall() const {
+  ExpectedBricks out;
+  out.target.X_base_target = toIsometry(inverse(parts.pose()) * X_map_wall());
+  for (std::size_t i = 0; i < belief.built.size(); ++i)
+    out.target.bricks.push_back(
+        {static_cast<int>(i), plan.slots[load().slots[i]].kind, belief.built[i], false});
+  const double m = config.brick_look.wheels_m, rad = config.brick_look.wheels_deg * kDeg;
+  out.covariance.diagonal() += Eigen::Vector3d(m * m, m * m, rad * rad);
+  return out;
 }
 
 std::optional<std::size_t> WallContext::nextBrick() const {
@@ -163,8 +224,9 @@ std::vector<OrientedBox> WallContext::storageAt(const StoragePosture& posture) c
   const StoragePlan& storage = load().storage;
   std::vector<StoredBrick> stored;
   for (std::size_t i = 0; i < belief.stored; ++i)
-    stored.push_back({storage.sequence[storage.load[i].brick], storage.load[i].seat});
-  return storageBoxes({parts.robot.storage, parts.robot.body, {}}, posture, stored);
+    if (storage.load[i].brick >= belief.taken_out)
+      stored.push_back({storage.sequence[storage.load[i].brick], storage.load[i].seat});
+  return storageBoxes(room_, posture, stored);
 }
 
 std::vector<OrientedBox> WallContext::aroundHands() const {
@@ -172,46 +234,99 @@ std::vector<OrientedBox> WallContext::aroundHands() const {
   for (std::size_t i = 0; i < belief.bricks.size(); ++i)
     if (!belief.bricks[i].taken && belief.bricks[i].state != BrickState::Missing)
       bricks.push_back(knownBrick(i));
+  const Eigen::Isometry3d X_base_wall = toIsometry(inverse(parts.pose()) * X_map_wall());
+  for (std::size_t i = 0; i < belief.built.size(); ++i)
+    bricks.push_back(
+        {wallName(i), plan.slots[load().slots[i]].kind, X_base_wall * belief.built[i]});
   std::vector<OrientedBox> out = boxesOf(bricks);
   for (OrientedBox& box : storageNow()) out.push_back(std::move(box));
   return out;
 }
 
-Eigen::Isometry3d WallContext::X_base_seat(const StoragePosture& posture, double out_m,
-                                           double up_m) const {
-  const StorageStep& step = load().storage.load[belief.stored];
-  const StorageRoom room{parts.robot.storage, parts.robot.body, {}};
-  const Eigen::Isometry3d X_seat =
-      X_base_stored(room, posture, step.seat, load().storage.sequence[step.brick]);
-  const Eigen::Vector3d by = out_m * X_seat.linear().col(2) + up_m * X_seat.linear().col(0);
-  return Eigen::Translation3d(by) * X_seat;
+Eigen::Isometry3d WallContext::X_base_seat(const StorageStep& step, const StoragePosture& posture,
+                                           double out_m) const {
+  return X_base_at(room_, posture, step.seat, load().storage.sequence[step.brick], out_m, 0.0);
 }
 
-Result<void> WallContext::checkSeat(const StoragePosture& posture) const {
+std::vector<Eigen::Isometry3d> WallContext::seatWay(const StorageStep& step,
+                                                    const StoragePosture& posture) const {
+  return kiln::seatWay(room_, config.storage, posture, step.seat,
+                       load().storage.sequence[step.brick]);
+}
+
+Result<void> WallContext::checkSeat(const StorageStep& step, const StoragePosture& posture,
+                                    const HeldBrick& brick) const {
   const LoadingConfig& l = config.loading;
-  ArmMoveTerms terms;
-  terms.scene.boxes = storageAt(posture);
-  terms.carried = belief.held->inFlange(parts.robot);
-  terms.clearance_m = l.store.handling.line_clearance_m;
-  // Head and brick may touch the storage there; the arm's links may not.
-  for (const OrientedBox& box : terms.scene.boxes) terms.scene.touchable.push_back(box.name);
-  parts.arm.setTerms(std::move(terms));
+  std::vector<Eigen::Isometry3d> way = seatWay(step, posture);
+  way.push_back(X_base_seat(step, posture, 2.0 * config.storage.front_m));
   const Eigen::Isometry3d X_brick_flange =
-      belief.held->X_tool_brick.inverse() * parts.robot.X_flange_tool.pose().inverse();
+      brick.X_tool_brick.inverse() * parts.robot.X_flange_tool.pose().inverse();
   Result<void> out;
-  for (const bool half_turn : {false, true}) {
-    out = {};
-    for (const auto& [out_m, up_m] :
-         {std::pair{l.before_m, l.over_m}, std::pair{0.5 * l.before_m, l.over_m},
-          std::pair{2.0 * l.seat_front_m, l.over_m}, std::pair{2.0 * l.seat_front_m, 0.0}}) {
-      Eigen::Isometry3d X = X_base_seat(posture, out_m, up_m);
-      if (half_turn) X = X * Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitZ());
-      if (const auto q = parts.arm.check(X * X_brick_flange); !q)
-        out = tl::make_unexpected(q.error());
-    }
-    if (out) break;
+  for (const double turn : {0.0, M_PI}) {
+    const auto flangeFor = [&](const Eigen::Isometry3d& X_base_brick) -> Eigen::Isometry3d {
+      return X_base_brick * Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitZ()) * X_brick_flange;
+    };
+    ArmMoveTerms terms;
+    terms.scene.boxes = storageAt(posture);
+    terms.carried = brick.inFlange(parts.robot);
+    terms.clearance_m = l.store.handling.line_clearance_m;
+    // Head and brick may touch the storage there; the arm's links may not.
+    terms.ahead = LineAhead{{}, {}, *terms.clearance_m};
+    for (const OrientedBox& box : terms.scene.boxes) terms.ahead->touchable.push_back(box.name);
+    for (std::size_t i = 1; i < way.size(); ++i)
+      terms.ahead->X_base_flange.push_back(flangeFor(way[i]));
+    parts.arm.setTerms(std::move(terms));
+    const auto q = parts.arm.check(flangeFor(way.front()));
+    if (q) return {};
+    out = tl::make_unexpected(q.error());
   }
   return out;
+}
+
+std::vector<StoragePosture> WallContext::posturesFor(const StorageStep& step) const {
+  constexpr double kStep_m = 0.05;
+  const std::size_t moved = step.seat.compartment;
+  const CompartmentConfig& row = parts.robot.storage[moved];
+  std::vector<StoragePosture> out{step.posture};
+  for (double at = row.travel_min_m; at <= row.travel_max_m; at += kStep_m) {
+    out.push_back(step.posture);
+    out.back()[moved] = at;
+  }
+  const auto way = [&](const StoragePosture& p) {
+    return std::abs(p[moved] - step.posture[moved]);
+  };
+  std::stable_sort(out.begin(), out.end(),
+                   [&](const auto& a, const auto& b) { return way(a) < way(b); });
+  return out;
+}
+
+std::optional<Eigen::Isometry3d> WallContext::flangeOutOfBin() const {
+  const auto arm = parts.arm_device.state();
+  if (!belief.held || !arm) return std::nullopt;
+  const Eigen::Isometry3d X_base_flange = parts.robot.X_base_flange(arm->q);
+  const Eigen::Isometry3d X_base_brick =
+      X_base_flange * parts.robot.X_flange_tool.pose() * belief.held->X_tool_brick;
+  const OrientedBox brick = makeBox(
+      X_base_brick, {brickShape(belief.held->kind).length_m, kBrickSide_m, kBrickSide_m}, "brick");
+  const double near_m = config.loading.store.handling.touching_m;
+  for (const OrientedBox& box : storageNow())
+    if (distance(brick, box) < near_m)
+      return Eigen::Translation3d(config.storage.before_m * X_base_brick.linear().col(2)) *
+             X_base_flange;
+  return std::nullopt;
+}
+
+ArmMoveTerms WallContext::leavingBin() const {
+  const HandlingConfig& handling = config.loading.store.handling;
+  ArmMoveTerms terms;
+  terms.scene.boxes = aroundHands();
+  for (const OrientedBox& box : storageNow()) terms.scene.touchable.push_back(box.name);
+  terms.carried = belief.held->inFlange(parts.robot);
+  terms.clearance_m = handling.line_clearance_m;
+  terms.guard_force_n = handling.guard_n;
+  terms.line_speed_mps = config.loading.store.leave_mps;
+  terms.watch = false;  // the live cloud shows the very brick
+  return terms;
 }
 
 void WallContext::handleBricks() { parts.arena.fixtures[kWallSite].boxes.clear(); }
@@ -223,7 +338,14 @@ void WallContext::siteMoved() {
   };
   now.pile = config_of(X_map_pile());
   now.marker = config_of(X_map_wall());
-  parts.arena.fixtures[kWallSite] = now.fixtures();
+  SiteFixtures fixtures = now.fixtures();
+  for (std::size_t i = 0; i < belief.built.size(); ++i) {
+    const double length_m = brickShape(plan.slots[load().slots[i]].kind).length_m;
+    fixtures.boxes.push_back({wallName(i),
+                              poseConfig(toIsometry(X_map_wall()) * belief.built[i]),
+                              {length_m, kBrickSide_m, kBrickSide_m}});
+  }
+  parts.arena.fixtures[kWallSite] = std::move(fixtures);
 }
 
 void WallContext::halt() {
@@ -233,6 +355,8 @@ void WallContext::halt() {
   if (hands) {
     hands->pick.cancel();
     hands->store.cancel();
+    hands->take_out.cancel();
+    hands->set.cancel();
     hands->travel.cancel();
   }
   ArmMoveTerms usual;

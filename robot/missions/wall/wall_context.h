@@ -30,6 +30,8 @@ class WallContext {
   struct Hands {
     PickBrick pick;
     PlaceBrick store;
+    PickBrick take_out;
+    PlaceBrick set;
     MoveStorage travel;
   };
   std::optional<Hands> hands;
@@ -41,8 +43,8 @@ class WallContext {
   /// Where the base stands for the given look, the first one before the middle.
   [[nodiscard]] Pose2 pileLookPose(int look) const;
   [[nodiscard]] Pose2 markerLookPose(int look) const;
-  /// Asks what a sweep shows of the bricks that are still in the pile. @pre the pile was found
-  void askForBricks(std::shared_ptr<const BrickSweep> sweep);
+  /// Asks what a sweep shows of these bricks.
+  void askForBricks(std::shared_ptr<const BrickSweep> sweep, BrickTarget target);
   /// The bricks that are still in the pile, as they are believed to stand from here.
   [[nodiscard]] ExpectedBricks expectedBricks() const;
 
@@ -51,6 +53,28 @@ class WallContext {
   /// How many bricks are stored at all.
   [[nodiscard]] std::size_t toStore() const;
   [[nodiscard]] bool loaded() const { return belief.stored >= toStore(); }
+  /// Bricks are missing in the pile, by this mission.
+  [[nodiscard]] bool anyTaken() const;
+  /// The load is complete when it is stored, so that it is built; else the site is surveyed only.
+  [[nodiscard]] bool builds() const {
+    return toStore() > 0 && toStore() == load().storage.load.size();
+  }
+  [[nodiscard]] bool isBuilt() const { return belief.built.size() >= load().slots.size(); }
+  /// What hangs on the gripper was taken out of the storage to be built.
+  [[nodiscard]] bool unloading() const { return belief.taken_out > belief.built.size(); }
+  /// The step that set, or will set, the held brick into its bin. @pre a brick is held
+  [[nodiscard]] const StorageStep& heldStep() const;
+  /// The step that takes out what is built next. @pre !isBuilt()
+  [[nodiscard]] const StorageStep& nextOut() const {
+    return load().storage.unload[belief.built.size()];
+  }
+  /// Where the base stands to set the next brick, and where that is to lie. @pre !isBuilt()
+  [[nodiscard]] Pose2 buildingPose() const;
+  [[nodiscard]] Eigen::Isometry3d X_wall_slot() const;
+  /// Unit vector in the wall frame to the neighbour against which it is set; nullopt: there is none.
+  [[nodiscard]] std::optional<Eigen::Vector3d> towardsNeighbour() const;
+  /// What was set, as it is believed to stand from here.
+  [[nodiscard]] ExpectedBricks expectedWall() const;
   /// The brick of the pile to take next: of the kind that the plan stores next, trusted, with none
   /// upon it, the nearest one. nullopt: there is none.
   [[nodiscard]] std::optional<std::size_t> nextBrick() const;
@@ -64,12 +88,22 @@ class WallContext {
   [[nodiscard]] std::vector<OrientedBox> storageNow() const;
   [[nodiscard]] std::vector<OrientedBox> storageAt(const StoragePosture& posture) const;
   [[nodiscard]] std::vector<OrientedBox> aroundHands() const;
-  /// The seat of what is stored next, with the compartments standing so; where the brick comes from
-  /// on its way there is `out_m` before it and `up_m` above its floor.
-  [[nodiscard]] Eigen::Isometry3d X_base_seat(const StoragePosture& posture, double out_m = 0.0,
-                                              double up_m = 0.0) const;
-  /// Can the arm bring the held brick there? Error: what hinders it. @pre a brick is held
-  [[nodiscard]] Result<void> checkSeat(const StoragePosture& posture) const;
+  /// The seat of a step's brick with the compartments standing so, or so far before it.
+  [[nodiscard]] Eigen::Isometry3d X_base_seat(const StorageStep& step,
+                                              const StoragePosture& posture,
+                                              double out_m = 0.0) const;
+  /// The way to there, the seat itself left out.
+  [[nodiscard]] std::vector<Eigen::Isometry3d> seatWay(const StorageStep& step,
+                                                       const StoragePosture& posture) const;
+  /// Can the arm bring this brick there, or out of there? Error: what hinders it.
+  [[nodiscard]] Result<void> checkSeat(const StorageStep& step, const StoragePosture& posture,
+                                       const HeldBrick& brick) const;
+  /// Where the compartments may stand for a step, the planned posture first, then nearest first.
+  [[nodiscard]] std::vector<StoragePosture> posturesFor(const StorageStep& step) const;
+  /// Where the flange leads the held brick out of the bin that it stands in; nullopt: it stands in
+  /// none. And how: on a line on which head and brick may touch the storage.
+  [[nodiscard]] std::optional<Eigen::Isometry3d> flangeOutOfBin() const;
+  [[nodiscard]] ArmMoveTerms leavingBin() const;
   /// Until the next halt() each brick is an obstacle by itself, told with the arm's motions, and not
   /// their stacks: the base must rest.
   void handleBricks();
@@ -78,6 +112,9 @@ class WallContext {
   void siteMoved();
   /// Arm, base and storage come to rest, nobody looks; what stands around is as it is believed.
   void halt();
+
+ private:
+  const StorageRoom room_;
 };
 
 }  // namespace kiln

@@ -10,13 +10,6 @@
 namespace kiln {
 namespace {
 
-constexpr double kShoulder_m = 0.1807;  // UR10e: of the arm's foot
-
-StorageRoom roomOf(const RobotGeometry& robot) {
-  return {robot.storage, robot.body,
-          robot.X_base_armbase.pose() * Eigen::Vector3d(0.0, 0.0, kShoulder_m)};
-}
-
 Result<WallLoad> planLoad(const WallConfig& config, const RobotGeometry& robot,
                           const std::vector<WallSlot>& slots, WallLeg leg) {
   const auto problem = makeLegProblem(slots, leg);
@@ -34,7 +27,7 @@ Result<WallLoad> planLoad(const WallConfig& config, const RobotGeometry& robot,
       load.slots.push_back(slot);
       kinds.push_back(slots[slot].kind);
     }
-  const StorageRoom room = roomOf(robot);
+  const StorageRoom room = StorageRoom::of(robot);
   auto storage = planStorage(room, config.storage, kinds);
   if (!storage) return tl::make_unexpected(storage.error());
   load.storage = std::move(*storage);

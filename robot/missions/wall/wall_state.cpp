@@ -4,6 +4,7 @@
 
 #include "common/model/status.h"
 #include "robot/missions/wall/states/arm_stopped.h"
+#include "robot/missions/wall/states/set_brick.h"
 #include "robot/missions/wall/states/store_brick.h"
 #include "robot/missions/wall/states/wall_given_up.h"
 
@@ -35,8 +36,11 @@ Transition wallInterrupt(WallContext& context, bool may_hold, Stamp now) {
   if (elapsed_s >= context.config.limit_s)
     return interruptTo<WallGivenUp>(
         context, fmt::format("the mission clock of {:.0f} s has run out", context.config.limit_s));
-  if (context.belief.held && !may_hold)
-    return interruptTo<StoreBrick>(context, context.belief.held->name + " hangs on the gripper");
+  if (context.belief.held && !may_hold) {
+    std::string why = context.belief.held->name + " hangs on the gripper";
+    return context.unloading() ? interruptTo<SetBrick>(context, std::move(why))
+                               : interruptTo<StoreBrick>(context, std::move(why));
+  }
   return Transition{};
 }
 

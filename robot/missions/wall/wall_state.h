@@ -6,6 +6,7 @@
 namespace kiln {
 
 class ArmStopped;
+class SetBrick;
 class StoreBrick;
 class TakeBrick;
 class WallGivenUp;
@@ -33,13 +34,13 @@ template <class Targets>
 struct WithWallInterrupts;
 template <class... States>
 struct WithWallInterrupts<To<States...>> {
-  using type = To<States..., ArmStopped, StoreBrick, WallGivenUp>;
+  using type = To<States..., ArmStopped, SetBrick, StoreBrick, WallGivenUp>;
 };
 }  // namespace fsm_detail
 
 /// To ArmStopped when the arm has stopped itself, to WallGivenUp at the end of the mission clock,
-/// to StoreBrick when a brick hangs on the gripper and the state does not work with it: nobody
-/// stows the arm or drives with it there. Else stay.
+/// to StoreBrick or SetBrick, where it belongs, when a brick hangs on the gripper and the state does
+/// not work with it: nobody stows the arm or drives with it there. Else stay.
 [[nodiscard]] Transition wallInterrupt(WallContext& context, bool may_hold, Stamp now);
 
 /// A working state of the wall mission: as above, and at each step first looks for a protective

@@ -88,9 +88,11 @@ PostureSet PostureGrid::all() const {
 
 PostureSet PostureGrid::serving(const Seat& seat, BrickKind kind) const {
   PostureSet set = bin_open_[seat.compartment][static_cast<std::size_t>(seat.bin)];
-  std::vector<bool> near;
-  for (const double at : travel_[seat.compartment])
-    near.push_back(fixedFault(room_, config_, at, seat, kind).empty());
+  const auto height_mm = static_cast<int>(std::lround(1e3 * seat.height_m));
+  std::vector<bool>& near = near_[{seat.compartment, seat.bin, height_mm, kind}];
+  if (near.empty())
+    for (const double at : travel_[seat.compartment])
+      near.push_back(fixedFault(room_, config_, at, seat, kind).empty());
   for (std::size_t posture = 0; posture < postures_; ++posture)
     if (!near[indexIn(posture, seat.compartment)])
       set[posture / 64] &= ~(std::uint64_t{1} << posture % 64);

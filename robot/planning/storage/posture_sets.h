@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <tuple>
 #include <vector>
 
 #include "robot/planning/storage/storage_room.h"
@@ -14,7 +16,7 @@ bool intersect(PostureSet& a, const PostureSet& b);
 [[nodiscard]] bool isEmpty(const PostureSet& set);
 
 /// All postures on a grid over the travel of each compartment, and from which of them a seat can be
-/// served. Thread-compatible.
+/// served. Confined to one thread.
 class PostureGrid {
  public:
   /// @pre config is valid, at most some 20,000 postures (see fits()).
@@ -38,6 +40,8 @@ class PostureGrid {
   std::size_t postures_ = 1;
   /// bin_open_[compartment][bin]: postures in which nothing stands before the bin.
   std::vector<std::vector<PostureSet>> bin_open_;
+  /// From which positions of its compartment the arm serves a seat; asked once for each.
+  mutable std::map<std::tuple<std::size_t, int, int, BrickKind>, std::vector<bool>> near_;
 };
 
 }  // namespace kiln

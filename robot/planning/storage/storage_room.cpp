@@ -81,14 +81,15 @@ void StorageConfig::visit(ConfigArchive& a) {
   a.field("bin_clearance_m", bin_clearance_m, "m", 0.0, 0.05, "brick to the walls of its bin");
   a.field("brick_tolerance_m", brick_tolerance_m, "m", 0.0, 0.05, "bricks may be so much larger");
   a.field("insertion_m", insertion_m, "m", 0.2, 1.0, "brick and gripper before the row");
-  a.field("lift_m", lift_m, "m", 0.0, 0.3, "a brick is set in so far above its place");
-  a.field("reach_m", reach_m, "m", 0.1, 3.0, "from the shoulder to the gripped plate");
+  a.field("lift_m", lift_m, "m", 0.01, 0.3, "a brick is set in so far above its place");
+  a.field("before_m", before_m, "m", 0.1, 0.8, "way into a bin: from so far before it");
+  a.field("front_m", front_m, "m", 0.0, 0.1, "a brick is let go so far before its place");
   a.field("travel_step_m", travel_step_m, "m", 0.01, 1.0, "between positions looked at");
 }
 
 Result<void> StorageConfig::validate() const {
   for (const double value : {max_stack_m, brake_mps2, clearance_m, bin_clearance_m,
-                             brick_tolerance_m, insertion_m, lift_m, reach_m})
+                             brick_tolerance_m, insertion_m, lift_m, before_m, front_m})
     if (!(std::isfinite(value) && value >= 0.0))
       return makeError(ErrorCode::InvalidInput, "storage: no length of its config may be negative");
   if (!(travel_step_m >= 0.01))
@@ -109,6 +110,28 @@ Eigen::Isometry3d X_base_stored(const StorageRoom& room, const StoragePosture& p
   // X up, Z (the plate) to the front, which is -X of the compartment.
   X_compartment_brick.linear() << 0, 0, -1, 0, 1, 0, 1, 0, 0;
   return row.X_base_compartment(posture[seat.compartment]) * X_compartment_brick;
+}
+
+StorageRoom StorageRoom::of(const RobotGeometry& robot) {
+  return {robot.storage, robot.body, &robot};
+}
+
+Eigen::Isometry3d X_base_at(const StorageRoom& room, const StoragePosture& posture,
+                            const Seat& seat, BrickKind kind, double out_m, double up_m) {
+  const Eigen::Isometry3d X = X_base_stored(room, posture, seat, kind);
+  return Eigen::Translation3d(out_m * X.linear().col(2) + up_m * X.linear().col(0)) * X;
+}
+
+std::vector<Eigen::Isometry3d> seatWay(const StorageRoom& room, const StorageConfig& config,
+                                       const StoragePosture& posture, const Seat& seat,
+                                       BrickKind kind) {
+  constexpr double kDoor_m = 0.02, kMouth_m = 0.03;  // before and behind the edges of its walls
+  const double edge_m = room.rows[seat.compartment].bin_depth_m;
+  std::vector<Eigen::Isometry3d> way;
+  for (const double out_m :
+       {config.before_m, edge_m + kDoor_m, edge_m - kMouth_m, 2.0 * config.front_m})
+    way.push_back(X_base_at(room, posture, seat, kind, out_m, config.lift_m));
+  return way;
 }
 
 std::string stackFault(const StorageRoom& room, const StorageConfig& config,
@@ -153,20 +176,12 @@ Result<void> checkRoom(const StorageRoom& room, const StorageConfig& config) {
 
 std::string fixedFault(const StorageRoom& room, const StorageConfig& config, double position_m,
                        const Seat& seat, BrickKind kind) {
-  StoragePosture posture(room.rows.size(), 0.0);
-  posture[seat.compartment] = position_m;
-  const Eigen::Vector3d p_base_plate =
-      X_base_stored(room, posture, seat, kind) * Eigen::Vector3d(0.0, 0.0, 0.5 * kBrickSide_m);
-  const double away_m = (p_base_plate - room.p_base_shoulder).norm();
-  if (away_m > config.reach_m)
-    return fmt::format("{:.2f} m from the shoulder, out of the arm's reach of {:.2f} m", away_m,
-                       config.reach_m);
   const OrientedBox way =
       insertion(room.rows[seat.compartment], config, position_m, seat, brickShape(kind).length_m);
   for (const BoxConfig& box : room.body)
     if (!clear(way, bodyBox(box), config.clearance_m))
       return box.name + " stands in the way to the front";
-  return {};
+  return armFault(room, config, position_m, seat, kind);
 }
 
 bool bars(const StorageRoom& room, const StorageConfig& config, std::size_t other,

@@ -27,9 +27,9 @@ struct StorageConfig {
   double bin_clearance_m = 0.001;    ///< the same between a brick and the walls of its own bin
   double brick_tolerance_m = 0.002;  ///< bricks are up to so much larger or smaller
   double insertion_m = 0.45;  ///< way to the front that brick and gripper need before the row
-  double lift_m = 0.05;       ///< a brick is set in so far above its place
-  /// From the arm's shoulder to the plate that is gripped: 1.3 m (paper) and 0.12 m of gripper.
-  double reach_m = 1.42;
+  double lift_m = 0.06;       ///< a brick is set in so far above its place
+  double before_m = 0.35;     ///< the arm's straight way into a bin begins so far before it
+  double front_m = 0.01;      ///< a brick is let go so far before its place and slides back into it
   double travel_step_m = 0.05;  ///< between positions of a compartment that are looked at
   void visit(ConfigArchive& a);
   [[nodiscard]] Result<void> validate() const;
@@ -38,8 +38,10 @@ struct StorageConfig {
 /// The compartments on a robot and what stands around them, in base.
 struct StorageRoom {
   std::vector<CompartmentConfig> rows;
-  std::vector<BoxConfig> body;  ///< deck and what is fixed to it
-  Eigen::Vector3d p_base_shoulder = Eigen::Vector3d::Zero();
+  std::vector<BoxConfig> body;           ///< deck and what is fixed to it
+  const RobotGeometry* robot = nullptr;  ///< whose arm it is, outlives this; nullptr: reaches all
+  /// As the robot's description has it.
+  [[nodiscard]] static StorageRoom of(const RobotGeometry& robot);
 };
 
 /// Position of each compartment along its travel, m.
@@ -60,6 +62,17 @@ struct Seat {
                                               const StoragePosture& posture, const Seat& seat,
                                               BrickKind kind);
 
+/// The brick's way from before a bin to above its place there, on straight lines: before it, at its
+/// door, in its mouth, inside. From the last pose it is lowered. Taken out it goes back.
+[[nodiscard]] std::vector<Eigen::Isometry3d> seatWay(const StorageRoom& room,
+                                                     const StorageConfig& config,
+                                                     const StoragePosture& posture,
+                                                     const Seat& seat, BrickKind kind);
+/// The brick so far before its place and above it.
+[[nodiscard]] Eigen::Isometry3d X_base_at(const StorageRoom& room, const StoragePosture& posture,
+                                          const Seat& seat, BrickKind kind, double out_m,
+                                          double up_m);
+
 /// Empty, or why these bricks, from the floor up, may not stand in one bin.
 [[nodiscard]] std::string stackFault(const StorageRoom& room, const StorageConfig& config,
                                      std::size_t compartment, std::span<const BrickKind> stack);
@@ -70,9 +83,9 @@ struct Seat {
 [[nodiscard]] Result<void> checkRoom(const StorageRoom& room, const StorageConfig& config);
 
 /// Empty, or why a brick of this kind cannot be set into, or taken from, this seat with the
-/// compartments standing so: its way to the front is barred (all other bins taken as full), or its
-/// plate is out of the arm's reach. The arm itself is planned against storageBoxes() by whoever
-/// moves it.
+/// compartments standing so: its way to the front is barred (all other bins taken as full), or the
+/// arm cannot lead it along seatWay() (armFault()). How the arm comes to where that begins is planned
+/// by whoever moves it.
 [[nodiscard]] std::string accessFault(const StorageRoom& room, const StorageConfig& config,
                                       const StoragePosture& posture, const Seat& seat,
                                       BrickKind kind);
@@ -81,6 +94,11 @@ struct Seat {
 /// reach, or something of the body stands in the way; empty: neither.
 [[nodiscard]] std::string fixedFault(const StorageRoom& room, const StorageConfig& config,
                                      double position_m, const Seat& seat, BrickKind kind);
+/// Empty, or why the arm cannot lead a brick of this kind, gripped at its middle, along seatWay() and
+/// down into this seat in one posture of the wrist: by inverse kinematics along the lines, without
+/// touching the robot, itself or the row of the seat, whose other bins are full.
+[[nodiscard]] std::string armFault(const StorageRoom& room, const StorageConfig& config,
+                                   double position_m, const Seat& seat, BrickKind kind);
 /// Another compartment stands in the way of the tallest stack into this bin.
 [[nodiscard]] bool bars(const StorageRoom& room, const StorageConfig& config, std::size_t other,
                         double other_position_m, const Seat& seat, double position_m);

@@ -147,6 +147,16 @@ ArmMoveTerms BrickHandling::freely(const std::vector<OrientedBox>& around) const
   return terms;
 }
 
+ArmMoveTerms BrickHandling::freelyBefore(const std::vector<OrientedBox>& around,
+                                         std::vector<std::string> touchable,
+                                         const std::vector<Eigen::Isometry3d>& X_base_tool) const {
+  ArmMoveTerms terms = freely(around);
+  terms.ahead = LineAhead{{}, std::move(touchable), config.line_clearance_m};
+  for (const Eigen::Isometry3d& X : X_base_tool)
+    terms.ahead->X_base_flange.push_back(flangeForTool(X));
+  return terms;
+}
+
 ArmMoveTerms BrickHandling::line(const std::vector<OrientedBox>& around,
                                  std::vector<std::string> touchable, double speed_mps,
                                  double guard_n) const {
@@ -173,22 +183,10 @@ bool BrickHandling::sameTilt(const Eigen::Isometry3d& X_base_tool_goal) const {
          std::abs(here(2, 2)) > kSameTiltCosine;
 }
 
-std::vector<Eigen::Isometry3d> BrickHandling::reachable(
-    const std::vector<Eigen::Isometry3d>& X_base_tool, Error& why) const {
-  const Vector6d from = jointsOf(parts.device);
-  std::vector<std::pair<double, Eigen::Isometry3d>> found;
-  for (const Eigen::Isometry3d& X : X_base_tool) {
-    const auto q = parts.motion.check(flangeForTool(X));
-    if (q)
-      found.emplace_back((*q - from).cwiseAbs().maxCoeff(), X);
-    else
-      why = q.error();
-  }
-  std::stable_sort(found.begin(), found.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<Eigen::Isometry3d> out;
-  for (const auto& [way, X] : found) out.push_back(X);
-  return out;
+Result<double> BrickHandling::wayTo(const Eigen::Isometry3d& X_base_tool) const {
+  const auto q = parts.motion.check(flangeForTool(X_base_tool));
+  if (!q) return tl::make_unexpected(q.error());
+  return (*q - jointsOf(parts.device)).cwiseAbs().maxCoeff();
 }
 
 }  // namespace kiln

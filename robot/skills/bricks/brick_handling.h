@@ -70,6 +70,10 @@ class BrickHandling {
   // Motions.
   /// Free motion with or without a brick, full clearance.
   [[nodiscard]] ArmMoveTerms freely(const std::vector<OrientedBox>& around) const;
+  /// The same, to where these straight lines begin: on them what is named may be touched.
+  [[nodiscard]] ArmMoveTerms freelyBefore(const std::vector<OrientedBox>& around,
+                                          std::vector<std::string> touchable,
+                                          const std::vector<Eigen::Isometry3d>& X_base_tool) const;
   /// A straight line on which these may be touched.
   [[nodiscard]] ArmMoveTerms line(const std::vector<OrientedBox>& around,
                                   std::vector<std::string> touchable, double speed_mps,
@@ -80,10 +84,9 @@ class BrickHandling {
   void lineTo(ArmMoveTerms terms, const std::vector<Eigen::Isometry3d>& X_base_tool, Stamp now);
   /// Does the face keep its tilt between here and there?
   [[nodiscard]] bool sameTilt(const Eigen::Isometry3d& X_base_tool_goal) const;
-  /// Of the ways to hold the face so, those that can be taken, nearest first. `why` tells of the
-  /// last one that cannot.
-  [[nodiscard]] std::vector<Eigen::Isometry3d> reachable(
-      const std::vector<Eigen::Isometry3d>& X_base_tool, Error& why) const;
+  /// How far the joints are from holding the face so, rad, under the terms that were set last.
+  /// Error: it cannot be held so, and why.
+  [[nodiscard]] Result<double> wayTo(const Eigen::Isometry3d& X_base_tool) const;
 
   HandlingConfig config;
   HandlingParts parts;

@@ -1,5 +1,6 @@
 #include "robot/skills/bricks/pick_brick.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -17,6 +18,9 @@ Eigen::Vector2d onSpiral(int n, double step_m) {
   const double r = step_m * std::sqrt(n), angle = kGoldenAngle_rad * n;
   return {r * std::cos(angle), r * std::sin(angle)};
 }
+
+/// From the plate, along its normal.
+Eigen::Translation3d away(double by_m) { return Eigen::Translation3d(0, 0, -by_m); }
 
 }  // namespace
 
@@ -66,7 +70,15 @@ void PickBrick::enter(Stage stage, std::string text, Stamp now) {
 
 /// The face's place on the plate, so far away along its normal.
 Eigen::Isometry3d PickBrick::before(double away_m) const {
-  return candidates_.front() * Eigen::Translation3d(0, 0, -away_m);
+  return candidates_.front() * away(away_m);
+}
+
+/// To before the plate, in a posture from which all that follows is done on straight lines.
+ArmMoveTerms PickBrick::aboveTerms(const Eigen::Isometry3d& X_base_tool) const {
+  const Eigen::Vector3d along = request_.lift.value_or(-X_base_tool.linear().col(2));
+  const Eigen::Isometry3d up = Eigen::Translation3d(config_.lift_m * along) * X_base_tool;
+  return base_.freelyBefore(request_.around, touchable_,
+                            {X_base_tool * away(-config_.beyond_m), up, up * away(request_.out_m)});
 }
 
 /// The face, with the brick on it.
@@ -81,21 +93,30 @@ ArmMoveTerms PickBrick::lineTerms(double speed_mps, double guard_n) const {
 
 void PickBrick::goAbove(Stamp now) {
   const Eigen::Vector2d offset = onSpiral(try_, config_.spiral_m);
-  std::vector<Eigen::Isometry3d> above;
-  const Eigen::Translation3d away(0, 0, -config_.above_m);
-  for (const bool half_turn : {false, true})
-    above.push_back(request_.brick.X_frame_brick * X_brick_face(offset, half_turn) * away);
-  ArmMoveTerms terms = base_.freely(request_.around);
-  base_.parts.motion.setTerms(terms);
+  std::vector<std::pair<double, Eigen::Isometry3d>> found;
   Error why;
+  for (const bool half_turn : {false, true}) {
+    const Eigen::Isometry3d X = request_.brick.X_frame_brick * X_brick_face(offset, half_turn);
+    base_.parts.motion.setTerms(aboveTerms(X));
+    if (const auto way = base_.wayTo(X * away(config_.above_m)))
+      found.emplace_back(*way, X);
+    else
+      why = way.error();
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
   candidates_.clear();
-  for (const Eigen::Isometry3d& X : base_.reachable(above, why))
-    candidates_.push_back(X * away.inverse());
+  for (const auto& [way, X] : found) candidates_.push_back(X);
   if (candidates_.empty()) {
     (void)base_.fail(why.code == ErrorCode::Refused ? "in_collision" : "unreachable", why.message);
     return;
   }
+  startAbove(now);
+}
+
+void PickBrick::startAbove(Stamp now) {
   enter(Stage::Above, fmt::format("to the brick, try {}", tries()), now);
+  base_.parts.motion.setTerms(aboveTerms(candidates_.front()));
   base_.parts.motion.startPose(base_.flangeForTool(before(config_.above_m)), now);
 }
 
@@ -155,7 +176,7 @@ SkillStatus PickBrick::nextPose(const SkillStatus& motion, Stamp now) {
         motion.failure_code == "in_collision" || motion.failure_code == "unreachable";
     if (!elsewhere || candidates_.size() < 2) return base_.fail(motion.failure_code, motion.text);
     candidates_.erase(candidates_.begin());
-    base_.parts.motion.startPose(base_.flangeForTool(before(config_.above_m)), now);
+    startAbove(now);
     return base_.status;
   }
   enter(Stage::Zeroing, "zeroes the force sensor", now);

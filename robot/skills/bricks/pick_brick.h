@@ -28,9 +28,9 @@ struct PickRequest {
 class PickBrick {
  public:
   struct Config {
-    double above_m = 0.08;       ///< the face stands so far before the plate
+    double above_m = 0.045;      ///< the face stands so far before the plate
     double beyond_m = 0.02;      ///< and is led so far beyond where the plate should be
-    double approach_mps = 0.02;  ///< until something is felt
+    double approach_mps = 0.01;  ///< until something is felt
     double touch_n = 12.0;       ///< that counts as felt
     double switch_s = 0.6;       ///< for the contact switch to close
     double grip_s = 0.15;        ///< closed for so long before it is lifted
@@ -69,6 +69,7 @@ class PickBrick {
   };
   void enter(Stage stage, std::string text, Stamp now);
   void goAbove(Stamp now);
+  void startAbove(Stamp now);
   SkillStatus nextPose(const SkillStatus& motion, Stamp now);
   SkillStatus approached(const SkillStatus& motion, Stamp now);
   SkillStatus grip(Stamp now);
@@ -76,6 +77,7 @@ class PickBrick {
   SkillStatus again(const char* code, std::string text, Stamp now);
   SkillStatus withdrawn(Stamp now);
   [[nodiscard]] Eigen::Isometry3d before(double away_m) const;
+  [[nodiscard]] ArmMoveTerms aboveTerms(const Eigen::Isometry3d& X_base_tool) const;
   [[nodiscard]] Eigen::Isometry3d lifted(double by_m) const;
   [[nodiscard]] ArmMoveTerms lineTerms(double speed_mps, double guard_n) const;
   [[nodiscard]] HeldBrick asGripped() const;
@@ -87,7 +89,7 @@ class PickBrick {
   Stage stage_ = Stage::Above;
   Stamp stage_began_;
   int try_ = 0;
-  std::vector<Eigen::Isometry3d> candidates_;  ///< X_base_tool on the plate
+  std::vector<Eigen::Isometry3d> candidates_;  ///< X_base_tool on the plate, nearest first
   Eigen::Isometry3d X_base_grip_ = Eigen::Isometry3d::Identity();
   std::optional<Stamp> closed_since_;
   double weight_sum_n_ = 0.0;

@@ -23,7 +23,8 @@ Eigen::Isometry3d turned(const Eigen::Isometry3d& X_base_brick, bool half_turn) 
 
 void PlaceBrick::Config::visit(ConfigArchive& a) {
   a.field("above_m", above_m, "m", 0.03, 0.5, "carried to so far above the slot");
-  a.field("enter_mps", enter_mps, "m/s", 0.005, 0.3, "on the last way in");
+  a.field("enter_mps", enter_mps, "m/s", 0.005, 0.3, "through the mouth of a bin");
+  a.field("inside_mps", inside_mps, "m/s", 0.005, 0.3, "inside of it");
   a.field("enter_n", enter_n, "N", 3, 60, "that counts as met there");
   a.field("near_m", near_m, "m", 0.002, 0.1, "lowered slowly from so far above it");
   a.field("aside_m", aside_m, "m", 0, 0.1, "and so far from the neighbour");
@@ -63,12 +64,14 @@ void PlaceBrick::start(PlaceRequest request, Stamp now) {
   const Eigen::Vector3d size(brickShape(request_.brick.kind).length_m, kBrickSide_m, kBrickSide_m);
   const OrientedBox there = makeBox(request_.X_base_slot, size, request_.brick.name);
   touchable_ = touchedBy(there, request_.around, config_.handling.touching_m);
-  base_.parts.motion.setTerms(base_.freely(request_.around));
   turns_.clear();
   Error why;
   for (const bool half_turn : {false, true}) {
-    const Eigen::Isometry3d X = turned(way().front(), half_turn);
-    if (!base_.reachable({X_base_tool(X)}, why).empty()) turns_.push_back(half_turn);
+    base_.parts.motion.setTerms(carryTerms(half_turn));
+    if (const auto way = base_.wayTo(X_base_tool(turned(this->way().front(), half_turn))))
+      turns_.push_back(half_turn);
+    else
+      why = way.error();
   }
   if (turns_.empty()) {
     (void)base_.fail(why.code == ErrorCode::Refused ? "in_collision" : "unreachable", why.message);
@@ -105,9 +108,23 @@ std::vector<Eigen::Isometry3d> PlaceBrick::way() const {
   return {over(config_.above_m), over(config_.near_m)};
 }
 
+/// To where the way in begins, in a posture from which it can be followed to its end.
+ArmMoveTerms PlaceBrick::carryTerms(bool half_turn) const {
+  std::vector<Eigen::Isometry3d> lines;
+  const std::vector<Eigen::Isometry3d> in = way();
+  for (std::size_t i = 1; i < in.size(); ++i)
+    lines.push_back(X_base_tool(turned(in[i], half_turn)));
+  const double down = in.back().translation().z() - request_.X_base_slot.translation().z();
+  lines.push_back(
+      X_base_tool(moved(turned(in.back(), half_turn), {0, 0, -down - config_.beyond_m})));
+  ArmMoveTerms terms = base_.freelyBefore(request_.around, touchable_, lines);
+  terms.keep_tilt = false;
+  return terms;
+}
+
 void PlaceBrick::carry(Stamp now) {
   const Eigen::Isometry3d goal = X_base_tool(turned(way().front(), turns_.front()));
-  ArmMoveTerms terms = base_.freely(request_.around);
+  ArmMoveTerms terms = carryTerms(turns_.front());
   terms.keep_tilt = base_.sameTilt(goal);
   base_.parts.motion.setTerms(std::move(terms));
   enter(Stage::Carrying, "carries it before its slot", now);
@@ -128,7 +145,7 @@ SkillStatus PlaceBrick::poll(Stamp now) {
     if (base_.zeroOverdue(now))
       return base_.fail("timeout", "the force sensor cannot be zeroed: something presses on it");
     if (!base_.zeroed()) return base_.status;
-    if (narrow()) {
+    if (atTheDoor()) {
       enterNext(config_.enter_mps, config_.enter_n, now);
       return base_.status;
     }
@@ -180,8 +197,12 @@ SkillStatus PlaceBrick::carried(const SkillStatus& motion, Stamp now) {
     carry(now);
     return base_.status;
   }
-  if (entered_ < way().size() && !narrow()) {
-    enterNext(config_.leave_mps, config_.handling.guard_n, now);
+  if (entered_ < way().size() && !atTheDoor()) {
+    const bool inside = !request_.way_base_brick.empty() && entered_ + 1 == way().size();
+    if (inside)
+      enterNext(config_.inside_mps, config_.enter_n, now);
+    else
+      enterNext(config_.leave_mps, config_.handling.guard_n, now);
     return base_.status;
   }
   enter(Stage::Zeroing, "zeroes the force sensor", now);
@@ -189,9 +210,9 @@ SkillStatus PlaceBrick::carried(const SkillStatus& motion, Stamp now) {
   return base_.status;
 }
 
-/// The last way into a bin is next: slow, and the sensor zeroed as the brick hangs now.
-bool PlaceBrick::narrow() const {
-  return !request_.way_base_brick.empty() && entered_ + 1 == way().size();
+/// The mouth of a bin is next: slow, and the sensor zeroed as the brick hangs now.
+bool PlaceBrick::atTheDoor() const {
+  return !request_.way_base_brick.empty() && entered_ + 2 == way().size();
 }
 
 void PlaceBrick::enterNext(double speed_mps, double guard_n, Stamp now) {

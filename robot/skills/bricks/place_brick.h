@@ -14,9 +14,9 @@ struct PlaceRequest {
   std::vector<OrientedBox> around;  ///< in base: bricks, storage; not the held brick
   /// Level unit vector in base towards the neighbour that it is set against; nullopt: there is none.
   std::optional<Eigen::Vector3d> towards;
-  /// Poses of the brick on its way in, the first one reached freely, the others on straight lines
-  /// (a bin is entered from its front); from the last one it is lowered. Empty: from straight
-  /// above.
+  /// Poses of the brick on its way into a bin: before it, which is reached freely, then on straight
+  /// lines at its door, in its mouth and inside; from the last one it is lowered. Empty: from
+  /// straight above.
   std::vector<Eigen::Isometry3d> way_base_brick;
 };
 
@@ -38,12 +38,13 @@ struct Placement {
 class PlaceBrick {
  public:
   struct Config {
-    double above_m = 0.08;                    ///< carried to so far above the slot
-    double enter_mps = 0.01, enter_n = 10.0;  ///< on the last way in; that counts as met there
-    double near_m = 0.015;                    ///< lowered slowly from so far above it
-    double aside_m = 0.02;                    ///< and so far from the neighbour
-    double beyond_m = 0.02;                   ///< led so far below the slot
-    double early_m = 0.02;  ///< felt higher above the slot than this, it is no support
+    double above_m = 0.08;  ///< carried to so far above the slot
+    /// Through the mouth of a bin, then inside it; and what counts as met there.
+    double enter_mps = 0.01, inside_mps = 0.03, enter_n = 10.0;
+    double near_m = 0.015;   ///< lowered slowly from so far above it
+    double aside_m = 0.02;   ///< and so far from the neighbour
+    double beyond_m = 0.02;  ///< led so far below the slot
+    double early_m = 0.02;   ///< felt higher above the slot than this, it is no support
     double lower_mps = 0.01;
     double support_n = 6.0;  ///< that counts as felt; a long brick tips off the face under more
     double raise_m = 0.004;  ///< off its support while it is led sideways
@@ -82,10 +83,11 @@ class PlaceBrick {
     Leaving
   };
   void enter(Stage stage, std::string text, Stamp now);
+  [[nodiscard]] ArmMoveTerms carryTerms(bool half_turn) const;
   void carry(Stamp now);
   void line(Stage stage, std::string text, const Eigen::Isometry3d& X_base_brick, double speed_mps,
             double guard_n, Stamp now);
-  [[nodiscard]] bool narrow() const;
+  [[nodiscard]] bool atTheDoor() const;
   void enterNext(double speed_mps, double guard_n, Stamp now);
   SkillStatus carried(const SkillStatus& motion, Stamp now);
   SkillStatus lowered(const SkillStatus& motion, Stamp now);

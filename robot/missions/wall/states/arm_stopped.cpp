@@ -3,7 +3,9 @@
 #include "common/model/status.h"
 #include "robot/missions/wall/states/drive_to_marker.h"
 #include "robot/missions/wall/states/drive_to_pile.h"
+#include "robot/missions/wall/states/drive_to_wall.h"
 #include "robot/missions/wall/states/locate_bricks.h"
+#include "robot/missions/wall/states/set_brick.h"
 #include "robot/missions/wall/states/store_brick.h"
 #include "robot/missions/wall/states/wall_given_up.h"
 
@@ -22,9 +24,14 @@ Transition ArmStopped::execute() {
     display("look at the arm, then release the protective stop");
     return stay();
   }
-  if (c.belief.held) return transit<StoreBrick>().because("released; a brick hangs on the gripper");
+  if (c.belief.held) {
+    const char* why = "released; a brick hangs on the gripper";
+    if (c.unloading()) return transit<SetBrick>().because(why);
+    return transit<StoreBrick>().because(why);
+  }
   if (!c.belief.pile) return transit<DriveToPile>().because("released; to the pile");
   if (c.hands && !c.loaded()) return transit<LocateBricks>().because("released; to the bricks");
+  if (c.belief.wall && c.builds()) return transit<DriveToWall>().because("released; to the wall");
   return transit<DriveToMarker>().because("released; to the marker");
 }
 

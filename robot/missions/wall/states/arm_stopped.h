@@ -6,13 +6,14 @@ namespace kiln {
 
 class DriveToPile;
 class DriveToMarker;
+class DriveToWall;
 class LocateBricks;
 
 /// The arm's safety controller has stopped it. Only the operator's release ends this: the vendor
 /// prohibits an automatic one. Afterwards the look that was under way begins anew.
 class ArmStopped
-    : public BareWallState<ArmStopped,
-                           To<DriveToPile, DriveToMarker, LocateBricks, StoreBrick, WallGivenUp>> {
+    : public BareWallState<ArmStopped, To<DriveToPile, DriveToMarker, DriveToWall, LocateBricks,
+                                          SetBrick, StoreBrick, WallGivenUp>> {
  public:
   static constexpr const char* kGroup = kFallback;
   static constexpr const char* kLabel = "Protective stop";

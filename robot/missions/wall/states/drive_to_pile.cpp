@@ -1,6 +1,7 @@
 #include "robot/missions/wall/states/drive_to_pile.h"
 
 #include "robot/missions/wall/states/find_pile.h"
+#include "robot/missions/wall/states/locate_bricks.h"
 #include "robot/missions/wall/states/wall_drive_blocked.h"
 
 namespace kiln {
@@ -19,6 +20,7 @@ Transition DriveToPile::execute() {
     return transit<WallDriveBlocked>(drive.text).because(drive.text);
   if (drive.phase != SkillPhase::Done) return stay();
   c.belief.drive_faults = 0;
+  if (c.anyTaken()) return transit<LocateBricks>().because("before the pile");
   return transit<FindPile>().because("before the pile");
 }
 

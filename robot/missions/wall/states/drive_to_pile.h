@@ -5,10 +5,11 @@
 namespace kiln {
 
 class FindPile;
+class LocateBricks;
 class WallDriveBlocked;
 
 /// To where the pile is looked for, with the arm stowed.
-class DriveToPile : public WallState<DriveToPile, To<FindPile, WallDriveBlocked>> {
+class DriveToPile : public WallState<DriveToPile, To<FindPile, LocateBricks, WallDriveBlocked>> {
  public:
   static constexpr const char* kGroup = kLocomotion;
   static constexpr const char* kDoc = "Drives to where the pile can be seen";

@@ -7,6 +7,7 @@
 #include "common/core/units.h"
 #include "robot/missions/wall/looking_posture.h"
 #include "robot/missions/wall/states/drive_to_marker.h"
+#include "robot/missions/wall/states/drive_to_wall.h"
 #include "robot/missions/wall/states/wall_given_up.h"
 #include "robot/missions/wall/states/wall_surveyed.h"
 
@@ -80,8 +81,10 @@ Transition FindMarker::conclude(const MarkerSearch& search) {
   turn.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(X_map_odom.yaw_rad).toRotationMatrix();
   c.belief.wall = {X, turn * found.covariance * turn.transpose()};
   c.siteMoved();
-  return transit<WallSurveyed>().because(
-      fmt::format("marker at ({:.2f}, {:.2f}) m by {} pictures", X.x_m, X.y_m, found.pictures));
+  const std::string where =
+      fmt::format("marker at ({:.2f}, {:.2f}) m by {} pictures", X.x_m, X.y_m, found.pictures);
+  if (c.builds()) return transit<DriveToWall>().because(where);
+  return transit<WallSurveyed>().because(where);
 }
 
 Transition FindMarker::again(const std::string& why) {

@@ -8,11 +8,12 @@
 namespace kiln {
 
 class DriveToMarker;
+class DriveToWall;
 class WallSurveyed;
 
 /// Moves the head over the ground ahead and looks for the wall's marker (paper, "Wall Marker
 /// Detection").
-class FindMarker : public WallState<FindMarker, To<DriveToMarker, WallSurveyed>> {
+class FindMarker : public WallState<FindMarker, To<DriveToMarker, DriveToWall, WallSurveyed>> {
  public:
   static constexpr const char* kGroup = kPerception;
   static constexpr const char* kDoc = "Looks for the wall's marker through the head camera";

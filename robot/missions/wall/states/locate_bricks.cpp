@@ -48,7 +48,7 @@ Transition LocateBricks::execute() {
   if (look.phase == SkillPhase::Failed) return again(look.text);
   if (look.phase != SkillPhase::Done) return stay();
   asked_ = true;
-  c.askForBricks(c.look.sweep());
+  c.askForBricks(c.look.sweep(), c.expectedBricks().target);
   return stay();
 }
 
@@ -91,7 +91,13 @@ Transition LocateBricks::goOn(const std::string& found) {
 }
 
 Transition LocateBricks::again(const std::string& why) {
-  const WallContext& c = context();
+  WallContext& c = context();
+  if (c.anyTaken()) {  // no pile any more that could be found as a whole
+    if (++c.belief.handling_faults > c.config.loading.max_faults)
+      return transit<WallGivenUp>().because("the bricks that are left are not found: " + why);
+    if (c.nextBrick()) return transit<DriveToStack>().because("once more: " + why);
+    return transit<DriveToPile>().because("once more: " + why);
+  }
   if (c.belief.pile_looks < c.config.pile_look.max_looks)
     return transit<DriveToPile>().because("not found: " + why);
   return transit<WallGivenUp>().because(

@@ -8,15 +8,12 @@
 #include "common/core/units.h"
 #include "robot/missions/wall/states/drive_to_marker.h"
 #include "robot/missions/wall/states/drive_to_stack.h"
+#include "robot/missions/wall/states/drive_to_wall.h"
 #include "robot/missions/wall/states/locate_bricks.h"
-#include "robot/missions/wall/states/take_brick.h"
 #include "robot/missions/wall/states/wall_given_up.h"
 
 namespace kiln {
 namespace {
-
-constexpr double kStep_m = 0.05;  // between the positions of a compartment that are tried
-constexpr double kDoor_m = 0.22;  // before a seat the walls of its bin begin
 
 constexpr std::array kAskew{0, 1, -1, 2, -2};
 
@@ -32,30 +29,22 @@ void StoreBrick::enter() {
   turned_ = 0;
   between_ = false;
   postures_.clear();
-  if (!c.belief.held || c.loaded() || !c.hands) return;
+  if (!c.belief.held || !c.hands) return;
+  step_ = c.heldStep();
+  postures_ = c.posturesFor(step_);
   c.handleBricks();
   // The arm holds meanwhile, with what hangs on it.
   c.parts.arm_control->carry(c.belief.held->payload(c.parts.robot));
-  const StorageStep& step = c.load().storage.load[c.belief.stored];
-  const CompartmentConfig& row = c.parts.robot.storage[step.seat.compartment];
-  const double planned_m = step.posture[step.seat.compartment];
-  postures_.push_back(step.posture);
-  for (double at = row.travel_min_m; at <= row.travel_max_m; at += kStep_m) {
-    postures_.push_back(step.posture);
-    postures_.back()[step.seat.compartment] = at;
-  }
-  const auto way = [&](const StoragePosture& p) {
-    return std::abs(p[step.seat.compartment] - planned_m);
-  };
-  std::stable_sort(postures_.begin(), postures_.end(),
-                   [&](const auto& a, const auto& b) { return way(a) < way(b); });
+  beginChoice();
 }
 
 Transition StoreBrick::execute() {
   const WallContext& c = context();
-  if (!c.belief.held || c.loaded() || !c.hands)
+  if (!c.belief.held || !c.hands)
     return transit<LocateBricks>().because("no brick hangs on the gripper");
   switch (stage_) {
+    case Stage::LeavingBin:
+      return leaveBin();
     case Stage::Choosing:
       return choosePosture();
     case Stage::Travelling:
@@ -68,10 +57,31 @@ Transition StoreBrick::execute() {
   return stay();
 }
 
+/// No compartment travels while the brick stands in a bin.
+void StoreBrick::beginChoice() {
+  WallContext& c = context();
+  stage_ = Stage::Choosing;
+  const auto out = c.flangeOutOfBin();
+  if (!out) return;
+  stage_ = Stage::LeavingBin;
+  c.parts.arm.setTerms(c.leavingBin());
+  c.parts.arm.startCartesian({*out}, false, now());
+}
+
+/// A brick that stands in a bin, after an interruption or a fault, is led out the way it came.
+Transition StoreBrick::leaveBin() {
+  WallContext& c = context();
+  const SkillStatus out = c.parts.arm.poll(now());
+  display(c.belief.held->name + " is led out of the storage: " + out.text);
+  if (out.phase == SkillPhase::Failed) return failed("not out of the storage: " + out.text);
+  if (out.phase == SkillPhase::Done) stage_ = Stage::Choosing;
+  return stay();
+}
+
 /// One a tick: where the compartment has to stand for the arm to reach the bin.
 Transition StoreBrick::choosePosture() {
   WallContext& c = context();
-  const auto reached = c.checkSeat(postures_[tried_]);
+  const auto reached = c.checkSeat(step_, postures_[tried_], *c.belief.held);
   if (reached) {
     stage_ = Stage::Travelling;
     c.hands->travel.start(postures_[tried_], now());
@@ -97,18 +107,16 @@ void StoreBrick::beginStore() {
   const LoadingConfig& loading = c.config.loading;
   const double half_m = 0.5 * brickShape(c.belief.held->kind).length_m;
   const double askew_rad = loading.askew_m / half_m * kAskew[turned_ % kAskew.size()];
-  const auto at = [&](double out_m, double up_m) -> Eigen::Isometry3d {
-    return c.X_base_seat(postures_[tried_], out_m, up_m) * Eigen::Translation3d(0, aside_m_, 0) *
+  const auto beside = [&](const Eigen::Isometry3d& X_base_brick) -> Eigen::Isometry3d {
+    return X_base_brick * Eigen::Translation3d(0, aside_m_, 0) *
            Eigen::AngleAxisd(askew_rad, Eigen::Vector3d::UnitZ());
   };
-  const double front_m = loading.seat_front_m;
-  c.hands->store.start({*c.belief.held,
-                        at(front_m, 0.0),
-                        c.aroundHands(),
-                        std::nullopt,
-                        {at(loading.before_m, loading.over_m), at(kDoor_m, loading.over_m),
-                         at(2.0 * front_m, loading.over_m)}},
-                       now());
+  std::vector<Eigen::Isometry3d> way = c.seatWay(step_, postures_[tried_]);
+  for (Eigen::Isometry3d& X : way) X = beside(X);
+  c.hands->store.start(
+      {*c.belief.held, beside(c.X_base_seat(step_, postures_[tried_], c.config.storage.front_m)),
+       c.aroundHands(), std::nullopt, std::move(way)},
+      now());
 }
 
 Transition StoreBrick::pollStore() {
@@ -129,22 +137,27 @@ Transition StoreBrick::pollStore() {
     const bool from_elsewhere =
         store.failure_code == "in_collision" || store.failure_code == "unreachable";
     if (c.belief.held && from_elsewhere && ++tried_ < postures_.size()) {
-      stage_ = Stage::Choosing;
+      beginChoice();
       return stay();
     }
     return failed(store.text);
   }
   if (store.phase != SkillPhase::Done) return stay();
   const std::string name = c.belief.held->name;
+  const bool back = c.unloading();
   c.belief.held.reset();
-  ++c.belief.stored;
   c.belief.handling_faults = 0;
+  if (back) {
+    --c.belief.taken_out;
+    return transit<DriveToWall>().because(name + " is back in its bin");
+  }
+  ++c.belief.stored;
   const std::string how_far =
       fmt::format("{} stands in the storage, {} of {}", name, c.belief.stored, c.toStore());
   if (c.loaded()) return transit<DriveToMarker>().because(how_far);
+  // What was under another brick or beside it is looked at once more, even from where it is taken.
   const auto next = c.nextBrick();
-  if (!next) return transit<LocateBricks>().because(how_far);
-  if (c.standsAt(c.takingPose(*next))) return transit<TakeBrick>().because(how_far);
+  if (!next || c.standsAt(c.takingPose(*next))) return transit<LocateBricks>().because(how_far);
   return transit<DriveToStack>().because(how_far);
 }
 
@@ -155,7 +168,7 @@ void StoreBrick::giveWay() {
   const WallContext& c = context();
   const auto arm = c.parts.arm_device.state();
   if (!arm) return;
-  const Eigen::Matrix3d R = c.X_base_seat(postures_[tried_]).linear().transpose() *
+  const Eigen::Matrix3d R = c.X_base_seat(step_, postures_[tried_]).linear().transpose() *
                             c.parts.robot.X_base_armbase.pose().linear();
   const Eigen::Vector3d force = R * arm->wrench_tool.head<3>();
   const Eigen::Vector3d torque = R * arm->wrench_tool.tail<3>();
@@ -191,6 +204,8 @@ Transition StoreBrick::failed(const std::string& why) {
   WallContext& c = context();
   if (++c.belief.handling_faults > c.config.loading.max_faults)
     return transit<WallGivenUp>().because("a brick cannot be stored: " + why);
+  if (!c.belief.held && c.unloading())
+    return transit<WallGivenUp>().because("a brick that is needed next is lost: " + why);
   if (!c.belief.held) return transit<LocateBricks>().because(why);
   return transit<StoreBrick>().because("once more: " + why);
 }

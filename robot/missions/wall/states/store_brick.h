@@ -6,12 +6,13 @@ namespace kiln {
 
 class DriveToMarker;
 class DriveToStack;
+class DriveToWall;
 class LocateBricks;
 
 /// Sets the brick on the gripper into its bin (paper, "Storage System"): the compartments travel to
 /// where the plan wants them, then it is set in upright from the front.
 class StoreBrick
-    : public WallState<StoreBrick, To<DriveToMarker, DriveToStack, LocateBricks, TakeBrick>> {
+    : public WallState<StoreBrick, To<DriveToMarker, DriveToStack, DriveToWall, LocateBricks>> {
  public:
   static constexpr const char* kGroup = kManipulation;
   static constexpr const char* kDoc = "Sets the brick on the gripper into its bin";
@@ -22,15 +23,18 @@ class StoreBrick
   Transition execute() override;
 
  private:
+  [[nodiscard]] Transition leaveBin();
   [[nodiscard]] Transition choosePosture();
   [[nodiscard]] Transition pollTravel();
   [[nodiscard]] Transition pollStore();
   [[nodiscard]] Transition drawBack();
+  void beginChoice();
   void beginStore();
   void giveWay();
   [[nodiscard]] Transition failed(const std::string& why);
-  enum class Stage { Choosing, Travelling, Storing, DrawingBack };
-  Stage stage_ = Stage::Choosing;
+  enum class Stage { LeavingBin, Choosing, Travelling, Storing, DrawingBack };
+  Stage stage_ = Stage::LeavingBin;
+  StorageStep step_;                      ///< where the brick belongs
   std::vector<StoragePosture> postures_;  ///< to be tried, the planned one first
   std::size_t tried_ = 0;
   int inserts_ = 0;

@@ -2,6 +2,7 @@
 
 #include "robot/missions/wall/states/drive_to_marker.h"
 #include "robot/missions/wall/states/drive_to_pile.h"
+#include "robot/missions/wall/states/drive_to_wall.h"
 #include "robot/missions/wall/states/locate_bricks.h"
 #include "robot/missions/wall/states/wall_given_up.h"
 
@@ -12,7 +13,7 @@ void WallDriveBlocked::arrive() {
   ++belief.drive_faults;
   if (!belief.pile)
     ++belief.pile_looks;
-  else if (context().loaded())
+  else if (context().loaded() && !belief.wall)
     ++belief.marker_looks;
 }
 
@@ -24,6 +25,7 @@ Transition WallDriveBlocked::execute() {
     return transit<WallGivenUp>().because("cannot be reached: " + why_);
   if (!c.belief.pile) return transit<DriveToPile>().because("from another side");
   if (c.hands && !c.loaded()) return transit<LocateBricks>().because("once more from here");
+  if (c.belief.wall && c.builds()) return transit<DriveToWall>().because("once more from here");
   return transit<DriveToMarker>().because("from another side");
 }
 

@@ -6,12 +6,13 @@ namespace kiln {
 
 class DriveToPile;
 class DriveToMarker;
+class DriveToWall;
 class LocateBricks;
 
 /// A drive failed: rest, then once more from the next place beside the last one, a bounded number
 /// of times.
 class WallDriveBlocked
-    : public WallState<WallDriveBlocked, To<DriveToPile, DriveToMarker, LocateBricks>,
+    : public WallState<WallDriveBlocked, To<DriveToPile, DriveToMarker, DriveToWall, LocateBricks>,
                        ResumeAt<DriveToPile>> {
  public:
   static constexpr const char* kGroup = kFallback;

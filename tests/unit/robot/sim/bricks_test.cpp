@@ -66,7 +66,7 @@ TEST(Bricks, ACarelessArmKnocksABrickOverAndItIsCounted) {
   rig.run(1.0);
   ASSERT_NEAR(rig.height(red + 3), 0.7, 0.01);
   Vector6d swept =
-      rig.reach(rig.physics->X_map_base().inverse() * (Eigen::Translation3d(0, 0, -0.2) * X_tool));
+      rig.reach(rig.physics->X_map_base().inverse() * (Eigen::Translation3d(0, 0, -0.3) * X_tool));
   rig.moveTo(swept, 2.0);
   ASSERT_TRUE(rig.collisions.collisions().empty());
   swept[0] += 1.2;

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "robot/planning/storage/storage_room.h"
+#include "tests/support/paths.h"
 
 namespace kiln::testing {
 
@@ -22,17 +24,21 @@ inline BoxConfig deck(double length_m, double width_m) {
   return box;
 }
 
+inline RobotGeometry robot(const std::string& name) {
+  RobotGeometry out;
+  const auto loaded = loadConfig(sourceDir() + "/resources/robot_model/" + name + ".yaml", out);
+  if (!loaded) throw std::runtime_error(loaded.error().message);
+  return out;
+}
+
 /// Bob with three rows behind the arm, each 6 cm beside the one before it.
 inline StorageRoom bobRoom() {
   return {{row("compartment 1", 0.12, -0.06), row("compartment 2", -0.16, 0.0),
            row("compartment 3", -0.44, 0.06)},
-          {deck(1.9, 1.4)},
-          {0.60, 0.0, 0.80}};
+          {deck(1.9, 1.4)}};
 }
 
 /// Mario with its only row.
-inline StorageRoom marioRoom() {
-  return {{row("compartment 1", -0.12, 0.0)}, {deck(1.08, 0.78)}, {0.34, 0.0, 0.80}};
-}
+inline StorageRoom marioRoom() { return {{row("compartment 1", -0.12, 0.0)}, {deck(1.08, 0.78)}}; }
 
 }  // namespace kiln::testing

@@ -83,9 +83,11 @@ TEST(StoragePlan, NamesTheBrickThatDoesNotFit) {
   const auto oranges = planStorage(bobRoom(), {}, std::vector<BrickKind>(16, Orange));
   ASSERT_FALSE(oranges.has_value());
   EXPECT_THAT(oranges.error().message, HasSubstr("orange brick number 16"));
-  StorageConfig short_arm;
-  short_arm.reach_m = 0.5;
-  const auto far = planStorage(bobRoom(), short_arm, std::vector<BrickKind>{Red});
+  RobotGeometry short_arm = testing::robot("bob_wall");
+  short_arm.X_base_armbase.xyz_m = {5.0, 0.0, 0.62};
+  StorageRoom out_of_reach = bobRoom();
+  out_of_reach.robot = &short_arm;
+  const auto far = planStorage(out_of_reach, {}, std::vector<BrickKind>{Red});
   ASSERT_FALSE(far.has_value());
   EXPECT_THAT(far.error().message, HasSubstr("brick 1 of the build order (red)"));
   StorageRoom none = bobRoom();

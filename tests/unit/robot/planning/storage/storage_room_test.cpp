@@ -100,8 +100,19 @@ TEST(StorageRoom, RowsInFrontBarTheOnesBehind) {
   // Y of the rows points to -Y of base: the front one to one side, the other to the other.
   EXPECT_EQ(accessFault(room, {}, {0.3, -0.3, 0}, middle, Red), "");
   EXPECT_EQ(accessFault(room, {}, {0, 0, 0}, {0, 2, 0.0}, Red), "");
-  EXPECT_THAT(accessFault(room, {}, {0, 0, 0.3}, {2, 0, 0.0}, Orange),
-              HasSubstr("out of the arm's reach"));
+}
+
+TEST(StorageRoom, ASeatIsInReachWhereTheArmCanLeadTheBrickIntoIt) {
+  const RobotGeometry bob = testing::robot("bob_wall"), mario = testing::robot("mario");
+  const StorageRoom bobs = StorageRoom::of(bob), marios = StorageRoom::of(mario);
+  // The last row is too far for what is gripped higher up, the one before it is not.
+  EXPECT_EQ(armFault(bobs, {}, 0.0, {2, 2, 0.0}, Blue), "");
+  EXPECT_NE(armFault(bobs, {}, 0.0, {2, 2, 0.0}, Orange), "");
+  EXPECT_EQ(armFault(bobs, {}, 0.0, {1, 2, 0.0}, Orange), "");
+  // Straight before the arm it cannot fold so far; a step aside it can.
+  EXPECT_NE(armFault(marios, {}, 0.0, {0, 2, 0.0}, Green), "");
+  EXPECT_EQ(armFault(marios, {}, 0.0, {0, 0, 0.0}, Green), "");
+  EXPECT_EQ(armFault(marios, {}, 0.0, {0, 2, 0.6}, Blue), "");
 }
 
 TEST(StorageRoom, WhatStandsBeforeABinBarsItUntilTheRowHasTravelled) {

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <vector>
+
+#include "robot/missions/wall/wall_state.h"
+
+namespace kiln {
+
+class DriveToWall;
+class SetBrick;
+class WallBuilt;
+
+/// Takes what is built next out of its bin: the compartments travel to where the arm reaches it, then
+/// it is gripped at its plate, lifted a little and led out to the front.
+class TakeOutBrick : public WallState<TakeOutBrick, To<DriveToWall, SetBrick, TakeOutBrick, WallBuilt>> {
+ public:
+  static constexpr const char* kGroup = kManipulation;
+  static constexpr const char* kDoc = "Takes the brick that is built next out of its bin";
+  static constexpr const char* kConsequence =
+      "The storage travels, then the arm takes a brick out of a bin";
+  void enter() override;
+  Transition execute() override;
+
+ private:
+  [[nodiscard]] Transition choosePosture();
+  [[nodiscard]] Transition pollTravel();
+  [[nodiscard]] Transition pollTake();
+  [[nodiscard]] Transition failed(const std::string& why);
+  enum class Stage { Choosing, Travelling, Taking };
+  Stage stage_ = Stage::Choosing;
+  KnownBrick brick_;
+  StorageStep step_;
+  std::vector<StoragePosture> postures_;  ///< to be tried, the planned one first
+  std::size_t tried_ = 0;
+};
+
+}  // namespace kiln
