@@ -33,7 +33,7 @@ struct SocketOptions {
   int send_hwm = 64;  ///< messages a peer
   int receive_hwm = 64;
   std::int64_t max_message_bytes = 64 << 10;  ///< a peer that sends more is disconnected
-  std::string routing_id;                     ///< Dealer only
+  std::string routing_id{};                   ///< Dealer only
   int linger_ms = 0;                          ///< last words get so long
   bool watch = false;                         ///< for lost()
 };

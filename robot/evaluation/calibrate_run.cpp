@@ -1,5 +1,6 @@
 #include <nlohmann/json.hpp>
 
+#include "common/config/resources.h"
 #include "common/core/atomic_file.h"
 #include "common/core/clock.h"
 #include "common/core/units.h"
@@ -100,7 +101,9 @@ struct JetErrors {
 }  // namespace
 
 Result<EvaluationResult> calibrateSensors(const SweepOptions& options) {
-  auto robot = nominalRobot();
+  const auto yard = yardOf(options.world);
+  if (!yard) return tl::make_unexpected(yard.error());
+  auto robot = loadResource<RobotGeometry>(yard->robot);
   if (!robot) return tl::make_unexpected(robot.error());
 
   EvaluationResult out;
@@ -114,7 +117,7 @@ Result<EvaluationResult> calibrateSensors(const SweepOptions& options) {
   for (int seed = options.first_seed; seed <= options.last_seed; ++seed) {
     const SteadyClock clock;
     const Stamp begin = clock.now();
-    auto done = calibrateInYard(seed);
+    auto done = calibrateInYard(*yard, seed);
     if (!done) return tl::make_unexpected(done.error());
     wall_s.push_back(toSeconds(clock.now() - begin));
     simulated_s.push_back(done->simulated_s);
@@ -124,8 +127,9 @@ Result<EvaluationResult> calibrateSensors(const SweepOptions& options) {
     json run{{"seed", seed}, {"report", done->found.report}, {"collisions", collisions}};
     run["lidar"] =
         lidar.add(truth, robot->X_flange_lidar, done->found.lidar.flange_lidar.X_parent_sensor);
-    run["thermal"] = thermal.add(truth, robot->X_flange_thermal,
-                                 done->found.thermal.flange_thermal.X_parent_sensor);
+    if (done->found.thermal)
+      run["thermal"] = thermal.add(truth, robot->X_flange_thermal,
+                                   done->found.thermal->flange_thermal.X_parent_sensor);
     if (done->found.nozzle)
       run["nozzle"] = nozzle.add(truth, robot->X_flange_nozzle, *done->found.nozzle);
     if (done->found.operator_camera)
@@ -139,14 +143,17 @@ Result<EvaluationResult> calibrateSensors(const SweepOptions& options) {
     if (auto written = writeFileAtomically(options.out, text); !written)
       return tl::make_unexpected(written.error());
   }
+  const auto refused = [&](const char* what, std::size_t found) {
+    out.figures.push_back({what, static_cast<double>(runs.size() - found), "", "", true});
+  };
   lidar.append(out.figures);
-  thermal.append(out.figures);
-  nozzle.append(out.figures);
-  camera.append(out.figures);
-  out.figures.push_back(
-      {"nozzle_refused", static_cast<double>(runs.size() - nozzle.after_mm.size()), "", "", true});
-  out.figures.push_back({"operator_camera_refused",
-                         static_cast<double>(runs.size() - camera.after_m.size()), "", "", true});
+  if (!thermal.after_m.empty()) {  // else the robot has neither camera nor nozzle
+    thermal.append(out.figures);
+    nozzle.append(out.figures);
+    camera.append(out.figures);
+    refused("nozzle_refused", nozzle.after_mm.size());
+    refused("operator_camera_refused", camera.after_m.size());
+  }
   out.figures.push_back({"collisions_total", collisions_total, "", "", true});
   out.figures.push_back({"simulated_median_s", median(simulated_s), "s", "", true});
   out.figures.push_back({"wall_median_s", median(wall_s), "s", "", true});

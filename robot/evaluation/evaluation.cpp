@@ -10,6 +10,9 @@ const EvaluationOption kWorld{"--world", "world file (default: the evaluation's 
 const EvaluationOption kPileWorld{
     "--world", "wall_lab: the pile of that world instead, swept by its robot with its own sensors",
     &SweepOptions::world};
+const EvaluationOption kCalibratedWorld{
+    "--world", "whose robot is calibrated, in a yard of its own (default: the fire's)",
+    &SweepOptions::world};
 const EvaluationOption kNeededCells{
     "--needed-cells",
     "with --world: cells of 2 cm that a sweep must show of a brick (default: what perception "
@@ -96,15 +99,15 @@ const std::vector<Evaluation>& evaluations() {
        "the wall mission as far as it goes: pile and marker as found in the lab's world, against "
        "the truth",
        evaluateWallSurvey,
-       {1, 10, 1, "", "", "", false},
-       {},
+       {1, 10},
+       {kCalibrate},
        {"wall", judgeWall}},
       {"calibrate",
-       "finds the mounting of LiDAR and thermal camera by moving the arm; --out FILE is for "
+       "finds the mounting of the sensors by moving the arm; --out FILE is for "
        "kiln-robotd --calibration",
        calibrateSensors,
        {1, 1},
-       {kOut}},
+       {kCalibratedWorld, kOut}},
       {"spray-calibration",
        "measures the jet in the world and writes resources/config/spray_calibration.yaml",
        calibrateSpray,

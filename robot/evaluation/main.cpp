@@ -7,9 +7,8 @@
 #include "common/core/atomic_file.h"
 #include "robot/evaluation/evaluation.h"
 #include "robot/evaluation/map_command.h"
-#include "robot/evaluation/mission_run.h"
+#include "robot/evaluation/mission_sweep.h"
 #include "robot/evaluation/trajectory_figure.h"
-#include "robot/evaluation/yard_calibration.h"
 #include "robot/missions/catalog.h"
 
 namespace {
@@ -188,9 +187,7 @@ int main(int argc, char** argv) {
     run_options.world_args = faults;
     run_options.trace = !figure.empty();
     if (calibrate) {
-      const auto file = calibrationOf(run_options.seed, calibrationCache());
-      if (!file) return fail(file.error());
-      run_options.robot_args.insert(run_options.robot_args.end(), {"--calibration", *file});
+      if (auto told = addCalibration(run_options); !told) return fail(told.error());
     }
     return runOneMission(run_options, report, figure);
   }

@@ -5,17 +5,28 @@
 #include <thread>
 
 #include "robot/evaluation/yard_calibration.h"
+#include "robot/missions/catalog.h"
 
 namespace kiln {
+
+Result<void> addCalibration(MissionRunOptions& run) {
+  std::string world = run.world;
+  const MissionKind* kind = findMission(run.mission.empty() ? missionNames().front() : run.mission);
+  if (world.empty() && kind) world = kind->default_world;
+  const auto yard = yardOf(world);
+  if (!yard) return tl::make_unexpected(yard.error());
+  const auto file = calibrationOf(*yard, run.seed, calibrationCache());
+  if (!file) return tl::make_unexpected(file.error());
+  run.robot_args.insert(run.robot_args.end(), {"--calibration", *file});
+  return {};
+}
 
 namespace {
 
 /// The robot of a seed is calibrated once, before its day.
 Result<MissionRun> runCalibrated(MissionRunOptions run, const SweepOptions& options) {
   if (options.calibrate) {
-    auto file = calibrationOf(run.seed, calibrationCache());
-    if (!file) return tl::make_unexpected(file.error());
-    run.robot_args.insert(run.robot_args.end(), {"--calibration", *file});
+    if (auto told = addCalibration(run); !told) return tl::make_unexpected(told.error());
   }
   return runMission(run);
 }

@@ -13,10 +13,13 @@ struct SeedResult {
   Result<MissionRun> run = MissionRun{};
 };
 
+/// The robot of the run goes through its calibration yard first, or takes what was found there before
+/// (yard_calibration.h).
+[[nodiscard]] Result<void> addCalibration(MissionRunOptions& run);
+
 /// Runs a mission (empty: the first of the catalogue) on all seeds in lockstep, with the truth
 /// trace, `options.jobs` at a time; results in seed order whatever the timing. With
-/// `options.calibrate` each seed's robot goes through the calibration yard first, or takes what it
-/// found there before (yard_calibration.h).
+/// `options.calibrate` each seed's robot is calibrated first.
 [[nodiscard]] std::vector<SeedResult> runSeeds(const SweepOptions& options,
                                                const std::string& mission = "");
 

@@ -67,13 +67,11 @@ BrickTrial truthOf(const json& truth, const BrickTarget& target) {
 Result<RobotGeometry> robotOf(const KnownWorld& world, int seed, bool calibrated) {
   auto robot = loadResource<RobotGeometry>(world.robot);
   if (!robot || !calibrated) return robot;
-  const auto yard = nominalRobot();
+  const auto yard = yardOf(world.name);
   if (!yard) return tl::make_unexpected(yard.error());
-  const auto file = calibrationOf(seed, calibrationCache());
+  const auto file = calibrationOf(*yard, seed, calibrationCache());
   if (!file) return tl::make_unexpected(file.error());
-  const auto found = loadCalibrated(*file, *yard);
-  if (!found) return tl::make_unexpected(found.error());
-  return withLidarOf(std::move(*robot), *found);
+  return loadCalibrated(*file, *robot);
 }
 
 Result<PileLook> look(SimLink& link, ManualClock& clock, const RobotGeometry& robot,

@@ -130,7 +130,7 @@ Result<std::vector<Trial>> tryOut(int seed, bool calibrate) {
   auto robot = nominalRobot();
   if (!robot) return tl::make_unexpected(robot.error());
   if (calibrate) {
-    auto file = calibrationOf(seed, calibrationCache());
+    auto file = calibrationOf(*yardOf(""), seed, calibrationCache());
     if (!file) return tl::make_unexpected(file.error());
     calibration = *file;
     robot = loadCalibrated(calibration, *robot);

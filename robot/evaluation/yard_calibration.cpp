@@ -1,11 +1,13 @@
 #include "robot/evaluation/yard_calibration.h"
 
+#include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
 #include <nlohmann/json.hpp>
+#include <yaml-cpp/yaml.h>
 
 #include "common/config/resources.h"
 #include "common/core/atomic_file.h"
@@ -18,8 +20,9 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* kRobot = "robot_model/bob.yaml";
-constexpr const char* kYard = "config/arena_calibration.yaml";
+const std::array kYards{Yard{"robot_model/bob.yaml", "calibration"},
+                        Yard{"robot_model/mario.yaml", "calibration_mario"}};
+constexpr const char* kMap = "config/arena_calibration.yaml";
 constexpr const char* kJet = "config/spray_calibration.yaml";
 constexpr Duration kStep = std::chrono::milliseconds(8);
 
@@ -29,10 +32,10 @@ struct Routine {
   double simulated_s = 0.0;
 };
 
-Result<Routine> calibrateBy(SimLink& link, ManualClock& clock) {
-  auto robot = nominalRobot();
+Result<Routine> calibrateBy(const Yard& of, SimLink& link, ManualClock& clock) {
+  auto robot = loadResource<RobotGeometry>(of.robot);
   if (!robot) return tl::make_unexpected(robot.error());
-  auto yard = loadResource<ArenaMap>(kYard);
+  auto yard = loadResource<ArenaMap>(kMap);
   if (!yard) return tl::make_unexpected(yard.error());
   auto plate = loadFireSite(*yard);
   if (!plate) return tl::make_unexpected(plate.error());
@@ -43,11 +46,16 @@ Result<Routine> calibrateBy(SimLink& link, ManualClock& clock) {
     clock.advanceBy(kStep);
     return link.advanceTo(clock.now());
   };
+  const auto has = [&]<class Device>(DeviceKind kind, Device& device) -> Device* {
+    return link.world().devices.contains(kind) ? &device : nullptr;
+  };
   CalibrationRoutineConfig config;
   config.nozzle.jet = *jet;
-  auto found = calibrateRobot(config, *robot, {*yard, *plate},
-                              {link.arm(), link.pumps(), link.lidar(), link.thermalCamera(),
-                               link.operatorCamera(), clock, step});
+  auto found =
+      calibrateRobot(config, *robot, {*yard, *plate},
+                     {link.arm(), link.lidar(), clock, step, has(DeviceKind::Pumps, link.pumps()),
+                      has(DeviceKind::ThermalCamera, link.thermalCamera()),
+                      has(DeviceKind::OperatorCamera, link.operatorCamera())});
   if (!found) return tl::make_unexpected(found.error());
   return Routine{std::move(*found), toSeconds(clock.now())};
 }
@@ -59,27 +67,64 @@ std::string contentOf(const std::string& path) {
   return text.str();
 }
 
+/// FNV-1a.
+class Fingerprint {
+ public:
+  void add(const std::string& bytes) {
+    for (const char c : bytes) hash_ = (hash_ ^ static_cast<unsigned char>(c)) * 0x100000001b3ull;
+  }
+  [[nodiscard]] std::string hex() const { return fmt::format("{:016x}", hash_); }
+
+ private:
+  std::uint64_t hash_ = 0xcbf29ce484222325ull;
+};
+
 /// Changes with everything that a calibration depends on: programs, yard and robot.
-std::string fingerprint() {
-  std::uint64_t hash = 0xcbf29ce484222325ull;  // FNV-1a
-  const auto add = [&hash](const std::string& bytes) {
-    for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ull;
-  };
-  for (const char* program : {"kiln-sim", "kiln-eval"}) add(contentOf(siblingProgram(program)));
-  for (const char* resource : {kRobot, kYard, kJet, "worlds/calibration.yaml"})
-    if (const auto path = resourcePath(resource); path) add(contentOf(*path));
-  return fmt::format("{:016x}", hash);
+std::string fingerprint(const Yard& yard) {
+  static const Fingerprint programs = [] {
+    Fingerprint out;
+    for (const char* program : {"kiln-sim", "kiln-eval"})
+      out.add(contentOf(siblingProgram(program)));
+    return out;
+  }();
+  Fingerprint all = programs;
+  for (const std::string& resource :
+       {yard.robot, std::string(kMap), std::string(kJet), "worlds/" + yard.world + ".yaml"})
+    if (const auto path = resourcePath(resource); path) all.add(contentOf(*path));
+  return all.hex();
 }
 
 }  // namespace
 
-Result<RobotGeometry> nominalRobot() { return loadResource<RobotGeometry>(kRobot); }
+Result<Yard> yardOf(const std::string& world) {
+  if (world.empty()) return kYards.front();
+  std::string path = world;
+  if (!std::filesystem::exists(path)) {
+    auto shipped = resourcePath("worlds/" + world + ".yaml");
+    if (!shipped) return tl::make_unexpected(shipped.error());
+    path = *shipped;
+  }
+  std::string robot, those;
+  try {
+    robot = YAML::LoadFile(path)["robot"].as<std::string>(kYards.front().robot);
+  } catch (const YAML::Exception& e) {
+    return makeError(ErrorCode::InvalidInput, "{}: {}", path, e.what());
+  }
+  for (const Yard& yard : kYards) {
+    if (yard.robot == robot) return yard;
+    those += " " + yard.robot;
+  }
+  return makeError(ErrorCode::InvalidInput,
+                   "{} has no yard in which it could be calibrated; these have:{}", robot, those);
+}
 
-Result<YardCalibration> calibrateInYard(int seed) {
+Result<RobotGeometry> nominalRobot() { return loadResource<RobotGeometry>(kYards.front().robot); }
+
+Result<YardCalibration> calibrateInYard(const Yard& yard, int seed) {
   ManualClock clock;
-  auto world = LockstepWorld::start("calibrate", seed, "calibration", clock);
+  auto world = LockstepWorld::start("calibrate", seed, yard.world, clock);
   if (!world) return tl::make_unexpected(world.error());
-  auto done = calibrateBy((*world)->link(), clock);
+  auto done = calibrateBy(yard, (*world)->link(), clock);
   const auto truth = (*world)->end();
   if (!done) {
     return makeError(done.error().code, "seed {}: {}; collisions: {}", seed, done.error().message,
@@ -106,13 +151,12 @@ std::string calibrationCache() {
   return std::filesystem::temp_directory_path() / "kiln-calibration";
 }
 
-Result<std::string> calibrationOf(int seed, const std::string& folder) {
-  static const std::string key = fingerprint();
-  const std::string path = fmt::format("{}/seed-{}-{}.yaml", folder, seed, key);
-  const auto robot = nominalRobot();
+Result<std::string> calibrationOf(const Yard& yard, int seed, const std::string& folder) {
+  const std::string path = fmt::format("{}/seed-{}-{}.yaml", folder, seed, fingerprint(yard));
+  const auto robot = loadResource<RobotGeometry>(yard.robot);
   if (!robot) return tl::make_unexpected(robot.error());
   if (std::filesystem::exists(path) && loadCalibrated(path, *robot)) return path;
-  auto done = calibrateInYard(seed);
+  auto done = calibrateInYard(yard, seed);
   if (!done) return tl::make_unexpected(done.error());
   std::error_code failed;
   std::filesystem::create_directories(folder, failed);

@@ -51,20 +51,24 @@ CalibrationRig::CalibrationRig(const Config& config, const RobotGeometry& nomina
       devices_(std::move(devices)),
       planned_yard_(withRoomForError(yard)),
       arm_({}, nominal_, devices_.arm, stop_),
-      pumps_({}, devices_.pumps, stop_),
       mover_(motionConfig(config), nominal_, planned_yard_, arm_, devices_.arm,
-             [this] { return yard_.arena.start.pose(); }) {}
+             [this] { return yard_.arena.start.pose(); }) {
+  if (devices_.pumps) pumps_.emplace(PumpController::Config{}, *devices_.pumps, stop_);
+}
 
 CalibrationRig::~CalibrationRig() {
-  if (auto off = devices_.pumps.write({0.0, 0.0}); !off)
+  if (!devices_.pumps) return;
+  if (auto off = devices_.pumps->write({0.0, 0.0}); !off)
     logger("calibrate")->error("the pumps could not be told to stop: {}", off.error().message);
 }
 
 Result<void> CalibrationRig::startSensors() {
   if (auto on = devices_.lidar.start([this](PointCloudPtr s) { scan_ = std::move(s); }); !on)
     return on;
-  if (auto on = devices_.thermal.start([this](ThermalImagePtr i) { image_ = std::move(i); }); !on)
-    return on;
+  if (devices_.thermal) {
+    auto on = devices_.thermal->start([this](ThermalImagePtr i) { image_ = std::move(i); });
+    if (!on) return on;
+  }
   return pass(0.5);
 }
 
@@ -74,12 +78,14 @@ Result<void> CalibrationRig::pass(double seconds) {
     if (auto stepped = devices_.step(); !stepped) return stepped;
     const Stamp now = devices_.clock.now();
     arm_.tick(now);
-    const double duty = spraying_ ? 1.0 : 0.0;
-    PumpSetpoint setpoint;
-    setpoint.stamp = now;
-    setpoint.duty = {duty, duty};
-    pumps_.setpoint(setpoint);
-    pumps_.tick(now);
+    if (pumps_) {
+      const double duty = spraying_ ? 1.0 : 0.0;
+      PumpSetpoint setpoint;
+      setpoint.stamp = now;
+      setpoint.duty = {duty, duty};
+      pumps_->setpoint(setpoint);
+      pumps_->tick(now);
+    }
     if (++steps_ % 2 == 0) motion_ = mover_.poll(now);
   }
   return {};
@@ -96,6 +102,8 @@ Result<PointCloudPtr> CalibrationRig::nextScan() {
 }
 
 Result<ThermalImagePtr> CalibrationRig::nextImage() {
+  if (!devices_.thermal)
+    return makeError(ErrorCode::Unavailable, "this robot has no thermal camera");
   const Stamp from = devices_.clock.now();
   while (!image_ || image_->stamp < from || image_->ffc == FfcState::Running) {
     if (auto passed = pass(kPeriod_s); !passed) return tl::make_unexpected(passed.error());
@@ -106,8 +114,10 @@ Result<ThermalImagePtr> CalibrationRig::nextImage() {
 }
 
 Result<RgbImagePtr> CalibrationRig::takePicture() {
+  if (!devices_.operator_camera)
+    return makeError(ErrorCode::Unavailable, "this robot has no operator camera");
   picture_.reset();
-  auto on = devices_.operator_camera.start([this](RgbImagePtr p) { picture_ = std::move(p); });
+  auto on = devices_.operator_camera->start([this](RgbImagePtr p) { picture_ = std::move(p); });
   if (!on) return tl::make_unexpected(on.error());
   const Stamp limit = devices_.clock.now() + fromSeconds(kFrameLimit_s);
   while (!picture_) {
@@ -115,7 +125,7 @@ Result<RgbImagePtr> CalibrationRig::takePicture() {
     if (devices_.clock.now() > limit)
       return makeError(ErrorCode::Timeout, "no picture of the operator camera; check its cable");
   }
-  devices_.operator_camera.stop();
+  devices_.operator_camera->stop();
   return picture_;
 }
 
@@ -181,7 +191,8 @@ Result<int> CalibrationRig::visit(const std::vector<Vector6d>& postures,
 void CalibrationRig::spray(bool on) { spraying_ = on; }
 
 Result<PumpTracking> CalibrationRig::pumps() const {
-  PumpTracking tracking = pumps_.tracking();
+  if (!pumps_) return makeError(ErrorCode::Unavailable, "this robot has no pumps");
+  PumpTracking tracking = pumps_->tracking();
   if (!tracking.blocked.empty())
     return makeError(ErrorCode::Unavailable, "the pumps do not spray: {}", tracking.blocked);
   return tracking;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "common/core/clock.h"
@@ -14,16 +15,17 @@
 
 namespace kiln {
 
-/// What the calibration works with: the robot's devices, whoever stands behind them.
+/// What the calibration works with: the robot's devices, whoever stands behind them; nullptr: this
+/// robot has none.
 struct CalibrationDevices {
   Arm& arm;
-  Pumps& pumps;
   Lidar& lidar;
-  ThermalCamera& thermal;
-  RgbCamera& operator_camera;
   const Clock& clock;
   /// Lets one control period pass: writes what was commanded, delivers what was measured.
   std::function<Result<void>()> step;
+  Pumps* pumps = nullptr;
+  ThermalCamera* thermal = nullptr;
+  RgbCamera* operator_camera = nullptr;
 };
 
 /// Where it stands, as configured.
@@ -52,7 +54,8 @@ class CalibrationRig {
   /// No more scans.
   void restLidar() { devices_.lidar.stop(); }
   [[nodiscard]] Result<void> pass(double seconds);
-  /// First frame that begins now or later. Error: Timeout, saying which cable to look at.
+  /// First frame that begins now or later. Errors: Timeout, saying which cable to look at;
+  /// Unavailable: the robot has no such sensor.
   [[nodiscard]] Result<PointCloudPtr> nextScan();
   [[nodiscard]] Result<ThermalImagePtr> nextImage();
   /// Runs the operator camera for one picture.
@@ -71,6 +74,8 @@ class CalibrationRig {
   [[nodiscard]] Result<int> visit(const std::vector<Vector6d>& postures,
                                   const std::function<Result<void>()>& measure);
 
+  [[nodiscard]] bool hasThermal() const { return devices_.thermal != nullptr; }
+  [[nodiscard]] bool hasPumps() const { return pumps_.has_value(); }
   /// Both pumps at full duty from now on, kept alive by pass(); false: off.
   void spray(bool on);
   /// What the pumps' model believes. Error: Unavailable when a pump draws no current or is blocked.
@@ -94,7 +99,7 @@ class CalibrationRig {
   ArenaMap planned_yard_;
   StopLatch stop_;
   ArmController arm_;
-  PumpController pumps_;
+  std::optional<PumpController> pumps_;
   MoveArm mover_;
   SkillStatus motion_;
   PointCloudPtr scan_;

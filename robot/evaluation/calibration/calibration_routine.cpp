@@ -47,34 +47,43 @@ std::string nozzleLine(const NozzleCalibration& found, std::string mounting) {
                                 1e2 * found.flow, 1e2 * found.flow_sigma);
 }
 
-Result<CalibrationResult> summed(const RobotGeometry& nominal, const LidarCalibration& lidar,
-                                 const ThermalCalibration& thermal,
-                                 const Result<NozzleCalibration>& nozzle,
-                                 const Result<Extrinsics>& camera) {
+bool isPose(const PoseConfig& pose, const Extrinsics& found) {
+  return difference(pose.pose(), found.X_parent_sensor).translation_m < 1e-6;
+}
+
+Result<CalibrationResult> beginWith(const RobotGeometry& nominal, const LidarCalibration& lidar,
+                                    const std::optional<ThermalCalibration>& thermal) {
   CalibrationResult out{lidar, thermal, std::nullopt, std::nullopt, RobotCalibration::of(nominal),
                         {}};
   RobotCalibration& c = out.calibration;
   c.X_flange_lidar = poseConfig(lidar.flange_lidar.X_parent_sensor);
-  c.X_flange_thermal = poseConfig(thermal.flange_thermal.X_parent_sensor);
   c.lidar_range_bias_m.assign(lidar.range_bias_m.begin(), lidar.range_bias_m.end());
+  if (thermal) c.X_flange_thermal = poseConfig(thermal->flange_thermal.X_parent_sensor);
   if (auto sane = c.applyTo(nominal); !sane) return tl::make_unexpected(sane.error());
-  out.report = {line("LiDAR", lidar.flange_lidar, nominal.X_flange_lidar),
-                line("thermal camera", thermal.flange_thermal, nominal.X_flange_thermal)};
-  const auto believed = [&](PoseConfig RobotCalibration::*pose, const Extrinsics& found) {
-    return difference((c.*pose).pose(), found.X_parent_sensor).translation_m < 1e-6;
-  };
+  out.report = {line("LiDAR", lidar.flange_lidar, nominal.X_flange_lidar)};
+  if (thermal)
+    out.report.push_back(line("thermal camera", thermal->flange_thermal, nominal.X_flange_thermal));
+  return out;
+}
+
+void addNozzle(CalibrationResult& out, const RobotGeometry& nominal,
+               const Result<NozzleCalibration>& nozzle) {
+  RobotCalibration& c = out.calibration;
   const auto mounting = nozzle.map([](const NozzleCalibration& n) { return n.flange_nozzle; });
   std::string told = believe("nozzle", mounting, nominal, &RobotCalibration::X_flange_nozzle, c, 1);
-  if (nozzle && believed(&RobotCalibration::X_flange_nozzle, nozzle->flange_nozzle)) {
+  if (nozzle && isPose(c.X_flange_nozzle, nozzle->flange_nozzle)) {
     out.nozzle = *nozzle;
     told = nozzleLine(*nozzle, std::move(told));
   }
   out.report.push_back(std::move(told));
+}
+
+void addCamera(CalibrationResult& out, const RobotGeometry& nominal,
+               const Result<Extrinsics>& camera) {
+  RobotCalibration& c = out.calibration;
   out.report.push_back(
       believe("operator camera", camera, nominal, &RobotCalibration::X_base_operatorcamera, c));
-  if (camera && believed(&RobotCalibration::X_base_operatorcamera, *camera))
-    out.operator_camera = *camera;
-  return out;
+  if (camera && isPose(c.X_base_operatorcamera, *camera)) out.operator_camera = *camera;
 }
 
 }  // namespace
@@ -82,26 +91,38 @@ Result<CalibrationResult> summed(const RobotGeometry& nominal, const LidarCalibr
 Result<CalibrationResult> calibrateRobot(const CalibrationRoutineConfig& config,
                                          const RobotGeometry& nominal, const CalibrationYard& yard,
                                          CalibrationDevices devices) {
-  if (yard.site.places.empty())
+  if (devices.thermal && yard.site.places.empty())
     return makeError(ErrorCode::InvalidInput, "the yard's map has no hot plate (sites)");
+  const bool has_camera = devices.operator_camera != nullptr;
   CalibrationRig rig(config.rig, nominal, yard, std::move(devices));
   const auto tell = [&rig](const char* what) {
     logger("calibrate")->info("{} at {:.0f} s", what, toSeconds(rig.clock().now()));
   };
   if (auto on = rig.startSensors(); !on) return tl::make_unexpected(on.error());
   CameraPart camera(config.camera);
-  const auto scans = collectScans(rig, config.lidar_postures, [&] { camera.look(rig); });
+  const auto scans = collectScans(rig, config.lidar_postures, [&] {
+    if (has_camera) camera.look(rig);
+  });
   if (!scans) return tl::make_unexpected(scans.error());
   rig.restLidar();
   const auto lidar = LidarCalibrator(config.lidar).calibrate(*scans, nominal.X_flange_lidar.pose());
   if (!lidar) return tl::make_unexpected(lidar.error());
   tell("LiDAR done");
-  const auto thermal = calibrateThermal(rig, config.thermal);
-  if (!thermal) return tl::make_unexpected(thermal.error());
-  tell("thermal camera done");
-  const auto nozzle = calibrateNozzle(rig, {*scans, *lidar, *thermal}, config.nozzle);
-  tell("nozzle done");
-  return summed(nominal, *lidar, *thermal, nozzle, camera.calibrate(nominal));
+  std::optional<ThermalCalibration> thermal;
+  if (rig.hasThermal()) {
+    auto found = calibrateThermal(rig, config.thermal);
+    if (!found) return tl::make_unexpected(found.error());
+    thermal = std::move(*found);
+    tell("thermal camera done");
+  }
+  auto out = beginWith(nominal, *lidar, thermal);
+  if (!out) return out;
+  if (thermal && rig.hasPumps()) {
+    addNozzle(*out, nominal, calibrateNozzle(rig, {*scans, *lidar, *thermal}, config.nozzle));
+    tell("nozzle done");
+  }
+  if (has_camera) addCamera(*out, nominal, camera.calibrate(nominal));
+  return out;
 }
 
 }  // namespace kiln

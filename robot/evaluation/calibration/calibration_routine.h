@@ -15,7 +15,7 @@ namespace kiln {
 /// What it found.
 struct CalibrationResult {
   LidarCalibration lidar;
-  ThermalCalibration thermal;
+  std::optional<ThermalCalibration> thermal;  ///< nullopt: the robot has no such camera
   std::optional<NozzleCalibration> nozzle;    ///< nullopt: stays nominal, see the report
   std::optional<Extrinsics> operator_camera;  ///< the same
   RobotCalibration calibration;               ///< to be written
@@ -35,7 +35,7 @@ struct CalibrationRoutineConfig {
 /// walls, the thermal camera at a hot plate before the robot, the operator camera at the robot
 /// itself, and the thermal camera at water that the nozzle sprays on a warm board. Blocks; one
 /// thread. Errors say what to do: no scans, no hot plate in view, arm blocked. A nozzle or operator
-/// camera that cannot be calibrated stays nominal.
+/// camera that cannot be calibrated stays nominal; of what the robot lacks nothing is asked or said.
 [[nodiscard]] Result<CalibrationResult> calibrateRobot(const CalibrationRoutineConfig& config,
                                                        const RobotGeometry& nominal,
                                                        const CalibrationYard& yard,

@@ -60,12 +60,6 @@ Eigen::Matrix3d turned(const Eigen::Matrix3d& covariance, const Pose2& X_map_now
 
 }  // namespace
 
-RobotGeometry withLidarOf(RobotGeometry robot, const RobotGeometry& calibrated) {
-  robot.X_flange_lidar = calibrated.X_flange_lidar;
-  robot.lidar_range_bias_m = calibrated.lidar_range_bias_m;
-  return robot;
-}
-
 Result<PileLook> lookAtPile(WallRig& rig, const RobotGeometry& robot, ArenaMap& arena,
                             WallSiteMap site, const PileLookOptions& options) {
   PileLook out;

@@ -32,7 +32,4 @@ struct PileLookOptions {
 [[nodiscard]] Result<PileLook> lookAtPile(WallRig& rig, const RobotGeometry& robot, ArenaMap& arena,
                                           WallSiteMap site, const PileLookOptions& options);
 
-/// The robot with the mounting and ranges of its LiDAR as a calibration of the same head found them.
-[[nodiscard]] RobotGeometry withLidarOf(RobotGeometry robot, const RobotGeometry& calibrated);
-
 }  // namespace kiln

@@ -169,13 +169,10 @@ Result<WallBelief> wallBeliefFromJson(const json& saved) {
       if (!X) return tl::make_unexpected(X.error());
       out.built.push_back(*X);
     }
-    // One of those that were taken out may hang on the gripper.
-    const std::size_t not_set = out.held ? 1 : 0;
     if (out.stored > kMostBricks || out.taken_out > out.stored ||
-        out.built.size() > out.taken_out || out.taken_out > out.built.size() + not_set)
-      return makeError(ErrorCode::InvalidInput,
-                       "{} bricks were stored, {} taken out, {} set and {} held", out.stored,
-                       out.taken_out, out.built.size(), not_set);
+        out.built.size() > out.taken_out || out.taken_out > out.built.size() + 1)
+      return makeError(ErrorCode::InvalidInput, "{} bricks were stored, {} taken out and {} set",
+                       out.stored, out.taken_out, out.built.size());
     if (saved.at("bricks").size() > kMostBricks)
       return makeError(ErrorCode::InvalidInput, "a pile of {} bricks", saved.at("bricks").size());
     for (const json& node : saved.at("bricks")) {

@@ -43,6 +43,9 @@ struct WallBelief {
   /// On the face. In the plan it is the one that was taken out last, unless that is built already:
   /// then the next one to be stored.
   std::optional<HeldBrick> held;
+
+  /// A brick that was taken out is not set yet: it hangs on the gripper, or was lost.
+  [[nodiscard]] bool unloading() const { return taken_out > built.size(); }
 };
 
 [[nodiscard]] nlohmann::json wallBeliefToJson(const WallBelief& belief);

@@ -53,7 +53,7 @@ struct LoadingConfig {
   MoveStorage::Config travel;
   /// A bin stands where it is known to, and how long a brick hangs below the face is not.
   LoadingConfig() {
-    store.beyond_m = 0.006;
+    store.beyond_m = 0.014;
     store.early_m = 0.06;
   }
   void visit(ConfigArchive& a);
@@ -67,7 +67,11 @@ struct BuildingConfig {
   int max_faults = 3;        ///< of taking out, setting or looking in a row
   PickBrick::Config take_out;
   PlaceBrick::Config set;
-  BuildingConfig() { take_out.lift_m = 0.04; }
+  /// Where it stands in its bin is known.
+  BuildingConfig() {
+    take_out.lift_m = 0.04;
+    take_out.beyond_m = 0.01;
+  }
   void visit(ConfigArchive& a);
 };
 

@@ -35,7 +35,8 @@ WallContext::WallContext(const MissionParts& mission_parts, const WallConfig& wa
       drive(mission_parts, wall_config.stow_tolerance_deg * kDeg),
       look(wall_config.look, mission_parts),
       pile(wall_config.pile, site_map, mission_parts.executor),
-      bricks(mission_parts.executor, "bricks", wall_config.brick_look.latency_s),
+      brick_look(look, wall_config.bricks, wall_config.brick_look.latency_s,
+                 mission_parts.executor),
       marker(wall_config.marker, mission_parts),
       room_(StorageRoom::of(parts.robot)) {
   if (!parts.gripper || !parts.storage || !parts.arm_control) return;
@@ -57,14 +58,14 @@ Pose2 WallContext::X_map_wall() const {
   return belief.wall ? belief.wall->X_map_frame : site.marker.pose();
 }
 
-Pose2 WallContext::pileLookPose(int look) const {
+Pose2 WallContext::pileLookPose(int index) const {
   const double length_m = site.layout().length();
-  return before(X_map_pile(), length_m * (0.5 + 0.4 * aside(look)), config.pile_look.distance_m);
+  return before(X_map_pile(), length_m * (0.5 + 0.4 * aside(index)), config.pile_look.distance_m);
 }
 
-Pose2 WallContext::markerLookPose(int look) const {
+Pose2 WallContext::markerLookPose(int index) const {
   constexpr double kStep_m = 0.8;
-  return before(X_map_wall(), 0.5 * kMarkerLength_m + kStep_m * aside(look),
+  return before(X_map_wall(), 0.5 * kMarkerLength_m + kStep_m * aside(index),
                 config.marker_look.distance_m);
 }
 
@@ -93,13 +94,6 @@ ExpectedBricks WallContext::expectedBricks() const {
   return out;
 }
 
-void WallContext::askForBricks(std::shared_ptr<const BrickSweep> sweep, BrickTarget target) {
-  bricks.ask([config = config.bricks, sweep = std::move(sweep),
-              target = std::move(target)]() -> Result<BrickSight> {
-    return BrickPerception(config).perceive(*sweep, target);
-  });
-}
-
 std::size_t WallContext::toStore() const {
   if (!hands) return 0;
   return std::min(static_cast<std::size_t>(config.loading.bricks), load().storage.load.size());
@@ -110,9 +104,17 @@ bool WallContext::anyTaken() const {
                      [](const PileBrick& brick) { return brick.taken; });
 }
 
+bool WallContext::inStorage(std::size_t brick) const {
+  const std::vector<StorageStep>& load = this->load().storage.load;
+  const auto end = load.begin() + static_cast<std::ptrdiff_t>(belief.stored);
+  return brick >= belief.taken_out && std::any_of(load.begin(), end, [&](const StorageStep& step) {
+           return step.brick == brick;
+         });
+}
+
 const StorageStep& WallContext::heldStep() const {
   const StoragePlan& storage = load().storage;
-  return unloading() ? storage.unload[belief.taken_out - 1] : storage.load[belief.stored];
+  return belief.unloading() ? storage.unload[belief.taken_out - 1] : storage.load[belief.stored];
 }
 
 Pose2 WallContext::buildingPose() const {
@@ -224,7 +226,7 @@ std::vector<OrientedBox> WallContext::storageAt(const StoragePosture& posture) c
   const StoragePlan& storage = load().storage;
   std::vector<StoredBrick> stored;
   for (std::size_t i = 0; i < belief.stored; ++i)
-    if (storage.load[i].brick >= belief.taken_out)
+    if (inStorage(storage.load[i].brick))
       stored.push_back({storage.sequence[storage.load[i].brick], storage.load[i].seat});
   return storageBoxes(room_, posture, stored);
 }
@@ -254,79 +256,9 @@ std::vector<Eigen::Isometry3d> WallContext::seatWay(const StorageStep& step,
                        load().storage.sequence[step.brick]);
 }
 
-Result<void> WallContext::checkSeat(const StorageStep& step, const StoragePosture& posture,
-                                    const HeldBrick& brick) const {
-  const LoadingConfig& l = config.loading;
-  std::vector<Eigen::Isometry3d> way = seatWay(step, posture);
-  way.push_back(X_base_seat(step, posture, 2.0 * config.storage.front_m));
-  const Eigen::Isometry3d X_brick_flange =
-      brick.X_tool_brick.inverse() * parts.robot.X_flange_tool.pose().inverse();
-  Result<void> out;
-  for (const double turn : {0.0, M_PI}) {
-    const auto flangeFor = [&](const Eigen::Isometry3d& X_base_brick) -> Eigen::Isometry3d {
-      return X_base_brick * Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitZ()) * X_brick_flange;
-    };
-    ArmMoveTerms terms;
-    terms.scene.boxes = storageAt(posture);
-    terms.carried = brick.inFlange(parts.robot);
-    terms.clearance_m = l.store.handling.line_clearance_m;
-    // Head and brick may touch the storage there; the arm's links may not.
-    terms.ahead = LineAhead{{}, {}, *terms.clearance_m};
-    for (const OrientedBox& box : terms.scene.boxes) terms.ahead->touchable.push_back(box.name);
-    for (std::size_t i = 1; i < way.size(); ++i)
-      terms.ahead->X_base_flange.push_back(flangeFor(way[i]));
-    parts.arm.setTerms(std::move(terms));
-    const auto q = parts.arm.check(flangeFor(way.front()));
-    if (q) return {};
-    out = tl::make_unexpected(q.error());
-  }
-  return out;
-}
-
-std::vector<StoragePosture> WallContext::posturesFor(const StorageStep& step) const {
-  constexpr double kStep_m = 0.05;
-  const std::size_t moved = step.seat.compartment;
-  const CompartmentConfig& row = parts.robot.storage[moved];
-  std::vector<StoragePosture> out{step.posture};
-  for (double at = row.travel_min_m; at <= row.travel_max_m; at += kStep_m) {
-    out.push_back(step.posture);
-    out.back()[moved] = at;
-  }
-  const auto way = [&](const StoragePosture& p) {
-    return std::abs(p[moved] - step.posture[moved]);
-  };
-  std::stable_sort(out.begin(), out.end(),
-                   [&](const auto& a, const auto& b) { return way(a) < way(b); });
-  return out;
-}
-
-std::optional<Eigen::Isometry3d> WallContext::flangeOutOfBin() const {
-  const auto arm = parts.arm_device.state();
-  if (!belief.held || !arm) return std::nullopt;
-  const Eigen::Isometry3d X_base_flange = parts.robot.X_base_flange(arm->q);
-  const Eigen::Isometry3d X_base_brick =
-      X_base_flange * parts.robot.X_flange_tool.pose() * belief.held->X_tool_brick;
-  const OrientedBox brick = makeBox(
-      X_base_brick, {brickShape(belief.held->kind).length_m, kBrickSide_m, kBrickSide_m}, "brick");
-  const double near_m = config.loading.store.handling.touching_m;
-  for (const OrientedBox& box : storageNow())
-    if (distance(brick, box) < near_m)
-      return Eigen::Translation3d(config.storage.before_m * X_base_brick.linear().col(2)) *
-             X_base_flange;
-  return std::nullopt;
-}
-
-ArmMoveTerms WallContext::leavingBin() const {
-  const HandlingConfig& handling = config.loading.store.handling;
-  ArmMoveTerms terms;
-  terms.scene.boxes = aroundHands();
-  for (const OrientedBox& box : storageNow()) terms.scene.touchable.push_back(box.name);
-  terms.carried = belief.held->inFlange(parts.robot);
-  terms.clearance_m = handling.line_clearance_m;
-  terms.guard_force_n = handling.guard_n;
-  terms.line_speed_mps = config.loading.store.leave_mps;
-  terms.watch = false;  // the live cloud shows the very brick
-  return terms;
+bool WallContext::somethingHangs() const {
+  const auto gripper = parts.gripper ? parts.gripper->state() : std::nullopt;
+  return gripper && gripper->on.any() && gripper->contact;
 }
 
 void WallContext::handleBricks() { parts.arena.fixtures[kWallSite].boxes.clear(); }
@@ -362,9 +294,9 @@ void WallContext::halt() {
   ArmMoveTerms usual;
   usual.scene.boxes = storageNow();
   parts.arm.setTerms(std::move(usual));
+  brick_look.cancel();
   look.cancel();
   pile.clear();
-  bricks.clear();
   marker.clear();
   siteMoved();
 }

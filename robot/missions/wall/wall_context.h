@@ -4,6 +4,7 @@
 
 #include "robot/missions/common/mission_parts.h"
 #include "robot/missions/common/stowed_drive.h"
+#include "robot/missions/wall/brick_look.h"
 #include "robot/missions/wall/wall_belief.h"
 #include "robot/missions/wall/wall_config.h"
 #include "robot/missions/wall/wall_plan.h"
@@ -25,7 +26,7 @@ class WallContext {
   StowedDrive drive;
   SweepLook look;
   PileTask pile;
-  PoolQuestion<Result<BrickSight>> bricks;
+  BrickLook brick_look;
   /// Of a robot with gripper and storage.
   struct Hands {
     PickBrick pick;
@@ -43,8 +44,6 @@ class WallContext {
   /// Where the base stands for the given look, the first one before the middle.
   [[nodiscard]] Pose2 pileLookPose(int look) const;
   [[nodiscard]] Pose2 markerLookPose(int look) const;
-  /// Asks what a sweep shows of these bricks.
-  void askForBricks(std::shared_ptr<const BrickSweep> sweep, BrickTarget target);
   /// The bricks that are still in the pile, as they are believed to stand from here.
   [[nodiscard]] ExpectedBricks expectedBricks() const;
 
@@ -60,14 +59,14 @@ class WallContext {
     return toStore() > 0 && toStore() == load().storage.load.size();
   }
   [[nodiscard]] bool isBuilt() const { return belief.built.size() >= load().slots.size(); }
-  /// What hangs on the gripper was taken out of the storage to be built.
-  [[nodiscard]] bool unloading() const { return belief.taken_out > belief.built.size(); }
   /// The step that set, or will set, the held brick into its bin. @pre a brick is held
   [[nodiscard]] const StorageStep& heldStep() const;
   /// The step that takes out what is built next. @pre !isBuilt()
   [[nodiscard]] const StorageStep& nextOut() const {
     return load().storage.unload[belief.built.size()];
   }
+  /// A brick of the load's sequence stands in its bin.
+  [[nodiscard]] bool inStorage(std::size_t brick) const;
   /// Where the base stands to set the next brick, and where that is to lie. @pre !isBuilt()
   [[nodiscard]] Pose2 buildingPose() const;
   [[nodiscard]] Eigen::Isometry3d X_wall_slot() const;
@@ -95,15 +94,8 @@ class WallContext {
   /// The way to there, the seat itself left out.
   [[nodiscard]] std::vector<Eigen::Isometry3d> seatWay(const StorageStep& step,
                                                        const StoragePosture& posture) const;
-  /// Can the arm bring this brick there, or out of there? Error: what hinders it.
-  [[nodiscard]] Result<void> checkSeat(const StorageStep& step, const StoragePosture& posture,
-                                       const HeldBrick& brick) const;
-  /// Where the compartments may stand for a step, the planned posture first, then nearest first.
-  [[nodiscard]] std::vector<StoragePosture> posturesFor(const StorageStep& step) const;
-  /// Where the flange leads the held brick out of the bin that it stands in; nullopt: it stands in
-  /// none. And how: on a line on which head and brick may touch the storage.
-  [[nodiscard]] std::optional<Eigen::Isometry3d> flangeOutOfBin() const;
-  [[nodiscard]] ArmMoveTerms leavingBin() const;
+  /// Magnets are on and the contact switch is closed: whatever it is, it hangs.
+  [[nodiscard]] bool somethingHangs() const;
   /// Until the next halt() each brick is an obstacle by itself, told with the arm's motions, and not
   /// their stacks: the base must rest.
   void handleBricks();

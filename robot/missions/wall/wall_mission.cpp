@@ -30,13 +30,13 @@ Result<void> WallMission::restore(const nlohmann::json& saved) {
   if (!belief) return tl::make_unexpected(belief.error());
   const std::size_t places = context_.load().storage.load.size();
   const std::size_t bricks = context_.site.layout().slots().size();
-  if (belief->stored > places || (!belief->bricks.empty() && belief->bricks.size() != bricks) ||
-      (belief->held && belief->stored >= places))
+  const std::size_t stored = belief->stored + (belief->held && !belief->unloading() ? 1 : 0);
+  if (stored > places || (!belief->bricks.empty() && belief->bricks.size() != bricks))
     return makeError(
         ErrorCode::InvalidInput,
-        "the checkpoint knows of {} bricks in the pile and {} in the storage, this site "
+        "the checkpoint knows of {} bricks in the pile and {} for the storage, this site "
         "has {} and places for {}: it is of another site or blueprint",
-        belief->bricks.size(), belief->stored, bricks, places);
+        belief->bricks.size(), stored, bricks, places);
   context_.belief = *belief;
   context_.siteMoved();
   return {};

@@ -38,8 +38,8 @@ Transition wallInterrupt(WallContext& context, bool may_hold, Stamp now) {
         context, fmt::format("the mission clock of {:.0f} s has run out", context.config.limit_s));
   if (context.belief.held && !may_hold) {
     std::string why = context.belief.held->name + " hangs on the gripper";
-    return context.unloading() ? interruptTo<SetBrick>(context, std::move(why))
-                               : interruptTo<StoreBrick>(context, std::move(why));
+    return context.belief.unloading() ? interruptTo<SetBrick>(context, std::move(why))
+                                      : interruptTo<StoreBrick>(context, std::move(why));
   }
   return Transition{};
 }

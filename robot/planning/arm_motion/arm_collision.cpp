@@ -69,9 +69,7 @@ struct ArmCollision::Query : ArmShapes {
 
 ArmCollision::ArmCollision(const RobotGeometry& robot)
     : robot_(robot), X_base_armbase_(robot.X_base_armbase.pose()) {
-  for (const BoxConfig& box : robot.body) {
-    body_.push_back(makeBox(box.center.pose(), sizeOf(box), box.name));
-  }
+  setScene({}, {});
   for (const BoxConfig& box : robot.head)
     head_in_flange_.push_back(makeBox(box.center.pose(), sizeOf(box), box.name));
   const std::vector<ArmShapeConfig>& shapes = robot.arm_shapes;
@@ -105,18 +103,19 @@ void ArmCollision::updateReach() {
 
 void ArmCollision::setScene(const std::vector<BoxConfig>& boxes_map, const Pose2& X_map_base,
                             const ArmScene& more) {
-  scene_.clear();
-  touchable_.clear();
+  body_ = scene_ = {};
   const auto may = [&](const std::string& name) {
     return std::find(more.touchable.begin(), more.touchable.end(), name) != more.touchable.end();
   };
-  const auto add = [&](const OrientedBox& box) {
-    (may(box.name) ? touchable_ : scene_).push_back(box);
+  const auto add = [&](Boxes& to, const OrientedBox& box) {
+    (may(box.name) ? to.touchable : to.kept_clear_of).push_back(box);
   };
+  for (const BoxConfig& box : robot_.body)
+    add(body_, makeBox(box.center.pose(), sizeOf(box), box.name));
   const Eigen::Isometry3d X_base_map = toIsometry(inverse(X_map_base));
   for (const BoxConfig& box : boxes_map)
-    add(makeBox(X_base_map * box.center.pose(), sizeOf(box), box.name));
-  for (const OrientedBox& box : more.boxes) add(box);
+    add(scene_, makeBox(X_base_map * box.center.pose(), sizeOf(box), box.name));
+  for (const OrientedBox& box : more.boxes) add(scene_, box);
   ground_touchable_ = may(kGroundName);
 }
 
@@ -125,12 +124,18 @@ void ArmCollision::setCarried(const std::optional<OrientedBox>& X_flange_box) {
   updateReach();
 }
 
-void ArmCollision::testBoxes(Query& query, const std::vector<OrientedBox>& boxes, Of of) const {
+void ArmCollision::testBoxes(Query& query, const Boxes& boxes, bool of_base) const {
+  testBoxes(query, boxes.kept_clear_of, of_base, false);
+  testBoxes(query, boxes.touchable, of_base, true);
+}
+
+void ArmCollision::testBoxes(Query& query, const std::vector<OrientedBox>& boxes, bool of_base,
+                             bool touchable) const {
   for (const OrientedBox& box : boxes) {
     if (query.blocked()) return;
     for (std::size_t i = 0; i < query.links.size(); ++i)
-      if (of != Of::Base || !standsStill(i)) query.test(i, robot_.arm_shapes[i], box, 0);
-    if (of == Of::Touchable) continue;
+      if (!of_base || !standsStill(i)) query.test(i, robot_.arm_shapes[i], box, 0);
+    if (touchable) continue;
     for (const OrientedBox& part : query.head) {
       query.test(part.bounds, kFlangeLink, part.name, box.bounds, 0, box.name,
                  [&] { return kiln::distance(part, box); });
@@ -183,10 +188,9 @@ void ArmCollision::evaluate(Query& query, const Vector6d& q) const {
   static_cast<ArmShapes&>(query) = shapesAt(q);
   for (const Capsule& link : query.links) query.bounds.push_back(boundsOf(link));
   testGround(query);
-  testBoxes(query, body_, Of::Base);
+  testBoxes(query, body_, true);
   testSelf(query);
-  testBoxes(query, scene_, Of::Scene);
-  testBoxes(query, touchable_, Of::Touchable);
+  testBoxes(query, scene_, false);
 }
 
 Clearance ArmCollision::clearance(const Vector6d& q, double interest_m) const {

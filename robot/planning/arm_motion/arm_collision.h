@@ -27,8 +27,9 @@ inline constexpr const char* kGroundName = "ground";  ///< among the names of wh
 /// What stands around the arm beside the arena, as one motion has to see it.
 struct ArmScene {
   std::vector<OrientedBox> boxes;  ///< in base: what moves with it, and what was measured from it
-  /// Names of boxes, or kGroundName, that head and carried body may touch on this motion: what is
-  /// taken, and what it lies on or is set against. The other links keep clear of them all the same.
+  /// Names of boxes, of the robot's body as well, or kGroundName, that head and carried body may touch
+  /// on this motion: what is taken, and what it lies on or is set against. The other links keep clear
+  /// of them all the same.
   std::vector<std::string> touchable;
 };
 
@@ -63,8 +64,13 @@ class ArmCollision {
 
  private:
   struct Query;
-  enum class Of { Base, Scene, Touchable };
-  void testBoxes(Query& query, const std::vector<OrientedBox>& boxes, Of of) const;
+  struct Boxes {
+    std::vector<OrientedBox> kept_clear_of, touchable;
+  };
+  /// @param of_base  they stand still with the arm's column.
+  void testBoxes(Query& query, const Boxes& boxes, bool of_base) const;
+  void testBoxes(Query& query, const std::vector<OrientedBox>& boxes, bool of_base,
+                 bool touchable) const;
   void testSelf(Query& query) const;
   void testGround(Query& query) const;
   void evaluate(Query& query, const Vector6d& q) const;
@@ -72,8 +78,8 @@ class ArmCollision {
 
   RobotGeometry robot_;
   Eigen::Isometry3d X_base_armbase_;
-  std::vector<OrientedBox> body_, scene_, head_in_flange_;
-  std::vector<OrientedBox> touchable_;  ///< of the scene
+  Boxes body_, scene_;
+  std::vector<OrientedBox> head_in_flange_;
   bool ground_touchable_ = false;
   std::optional<OrientedBox> carried_in_flange_;
   std::vector<std::array<std::size_t, 2>> self_pairs_;  ///< of links that can meet

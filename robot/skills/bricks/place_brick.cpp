@@ -23,11 +23,12 @@ Eigen::Isometry3d turned(const Eigen::Isometry3d& X_base_brick, bool half_turn) 
 
 void PlaceBrick::Config::visit(ConfigArchive& a) {
   a.field("above_m", above_m, "m", 0.03, 0.5, "carried to so far above the slot");
+  a.field("apart_m", apart_m, "m", 0, 0.2, "and so far from the neighbour");
   a.field("enter_mps", enter_mps, "m/s", 0.005, 0.3, "through the mouth of a bin");
   a.field("inside_mps", inside_mps, "m/s", 0.005, 0.3, "inside of it");
   a.field("enter_n", enter_n, "N", 3, 60, "that counts as met there");
   a.field("near_m", near_m, "m", 0.002, 0.1, "lowered slowly from so far above it");
-  a.field("aside_m", aside_m, "m", 0, 0.1, "and so far from the neighbour");
+  a.field("aside_m", aside_m, "m", 0, 0.1, "and there so far from the neighbour");
   a.field("beyond_m", beyond_m, "m", 0, 0.1, "led so far below the slot");
   a.field("early_m", early_m, "m", 0.002, 0.1, "felt higher above the slot: no support");
   a.field("lower_mps", lower_mps, "m/s", 0.002, 0.1, "until the support is felt");
@@ -63,7 +64,11 @@ void PlaceBrick::start(PlaceRequest request, Stamp now) {
   base_.hold(request_.brick, now);
   const Eigen::Vector3d size(brickShape(request_.brick.kind).length_m, kBrickSide_m, kBrickSide_m);
   const OrientedBox there = makeBox(request_.X_base_slot, size, request_.brick.name);
-  touchable_ = touchedBy(there, request_.around, config_.handling.touching_m);
+  std::vector<OrientedBox> near = request_.around;
+  for (const BoxConfig& box : base_.parts.robot.body)  // the deck below the floor of a bin
+    near.push_back(
+        makeBox(box.center.pose(), Eigen::Map<const Eigen::Vector3d>(box.size_m.data()), box.name));
+  touchable_ = touchedBy(there, near, config_.handling.touching_m);
   turns_.clear();
   Error why;
   for (const bool half_turn : {false, true}) {
@@ -97,15 +102,14 @@ Eigen::Isometry3d PlaceBrick::X_base_tool(const Eigen::Isometry3d& X_base_brick)
   return X_base_brick * request_.brick.X_tool_brick.inverse();
 }
 
-/// The last ones are straight above the slot, away from the neighbour.
+/// The last one is straight above the slot, away from the neighbour.
 std::vector<Eigen::Isometry3d> PlaceBrick::way() const {
   if (!request_.way_base_brick.empty()) return request_.way_base_brick;
-  Eigen::Vector3d aside(0, 0, 0);
-  if (request_.towards) aside -= config_.aside_m * *request_.towards;
-  const auto over = [&](double up_m) {
-    return moved(request_.X_base_slot, aside + up_m * Eigen::Vector3d::UnitZ());
+  const Eigen::Vector3d away = -request_.towards.value_or(Eigen::Vector3d::Zero());
+  const auto over = [&](double up_m, double aside_m) {
+    return moved(request_.X_base_slot, aside_m * away + up_m * Eigen::Vector3d::UnitZ());
   };
-  return {over(config_.above_m), over(config_.near_m)};
+  return {over(config_.above_m, config_.apart_m), over(config_.near_m, config_.aside_m)};
 }
 
 /// To where the way in begins, in a posture from which it can be followed to its end.

@@ -38,11 +38,13 @@ struct Placement {
 class PlaceBrick {
  public:
   struct Config {
-    double above_m = 0.08;  ///< carried to so far above the slot
+    /// Carried to so far above the slot, and so far from the neighbour: with the clearance of free
+    /// motion to it.
+    double above_m = 0.08, apart_m = 0.045;
     /// Through the mouth of a bin, then inside it; and what counts as met there.
     double enter_mps = 0.01, inside_mps = 0.03, enter_n = 10.0;
     double near_m = 0.015;   ///< lowered slowly from so far above it
-    double aside_m = 0.02;   ///< and so far from the neighbour
+    double aside_m = 0.02;   ///< and there so far from the neighbour
     double beyond_m = 0.02;  ///< led so far below the slot
     double early_m = 0.02;   ///< felt higher above the slot than this, it is no support
     double lower_mps = 0.01;
@@ -67,6 +69,10 @@ class PlaceBrick {
   void cancel();  ///< the arm holds; magnets keep their state
   /// From the release on; nullopt before.
   [[nodiscard]] const std::optional<Placement>& placement() const { return placement_; }
+  /// It stays where it was let go, though the face may not have come away from it freely.
+  [[nodiscard]] bool hasLetGo() const {
+    return placement_ && base_.status.failure_code != "not_released";
+  }
   [[nodiscard]] const std::optional<BrickDrop>& drop() const { return base_.drop; }
 
  private:

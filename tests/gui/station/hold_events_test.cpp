@@ -87,7 +87,7 @@ class HoldEventsTest : public testing::Test {
     manager = nullptr;
   }
   void SetUp() override {
-    if (!manager) GTEST_SKIP() << "needs a window manager: openbox";
+    if (!manager) GTEST_SKIP() << "needs a window manager: apt-get install openbox";
     ASSERT_TRUE(QTest::qWaitFor([this] { return hand.managed(); }));
     theme.apply();
     open();

@@ -16,7 +16,9 @@ int differing(const QImage& a, const QImage& b) {
 }
 
 TEST_F(StationTest, RendererShowsAndHidesLayers) {
-  if (!openGlAvailable()) GTEST_SKIP() << "no OpenGL on this display";
+  if (!openGlAvailable())
+    GTEST_SKIP() << "no OpenGL on this display: install libgl1-mesa-dri (software rendering), or "
+                    "start the tests on an X display with GLX";
   const SampleWorld world;
   SceneState state({}, world.robot());
   const RobotStatus robot = world.status({}, 5.0);

@@ -26,7 +26,7 @@ Transition ArmStopped::execute() {
   }
   if (c.belief.held) {
     const char* why = "released; a brick hangs on the gripper";
-    if (c.unloading()) return transit<SetBrick>().because(why);
+    if (c.belief.unloading()) return transit<SetBrick>().because(why);
     return transit<StoreBrick>().because(why);
   }
   if (!c.belief.pile) return transit<DriveToPile>().because("released; to the pile");

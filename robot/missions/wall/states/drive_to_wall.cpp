@@ -1,5 +1,6 @@
 #include "robot/missions/wall/states/drive_to_wall.h"
 
+#include "robot/missions/wall/states/drive_to_marker.h"
 #include "robot/missions/wall/states/locate_wall.h"
 #include "robot/missions/wall/states/take_out_brick.h"
 #include "robot/missions/wall/states/wall_built.h"
@@ -9,12 +10,13 @@ namespace kiln {
 
 void DriveToWall::enter() {
   WallContext& c = context();
-  if (!c.isBuilt()) c.drive.start({c.buildingPose()}, now());
+  if (!c.isBuilt() && c.belief.wall) c.drive.start({c.buildingPose()}, now());
 }
 
 Transition DriveToWall::execute() {
   WallContext& c = context();
   if (c.isBuilt()) return transit<WallBuilt>().because("every brick is set");
+  if (!c.belief.wall) return transit<DriveToMarker>().because("the marker was not found yet");
   const SkillStatus drive = c.drive.poll(now());
   guard("Arm stowed", c.drive.stowed());
   display("to the wall: " + drive.text);

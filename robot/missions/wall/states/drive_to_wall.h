@@ -4,6 +4,7 @@
 
 namespace kiln {
 
+class DriveToMarker;
 class LocateWall;
 class TakeOutBrick;
 class WallBuilt;
@@ -11,7 +12,8 @@ class WallDriveBlocked;
 
 /// To where the next brick is set, with the arm stowed; then what stands there already is looked at.
 class DriveToWall
-    : public WallState<DriveToWall, To<LocateWall, TakeOutBrick, WallDriveBlocked, WallBuilt>> {
+    : public WallState<DriveToWall,
+                       To<DriveToMarker, LocateWall, TakeOutBrick, WallDriveBlocked, WallBuilt>> {
  public:
   static constexpr const char* kGroup = kLocomotion;
   static constexpr const char* kDoc = "Drives to where the next brick is set";

@@ -30,26 +30,17 @@ Eigen::Isometry3d levelled(const Eigen::Isometry3d& X_base_brick, double within_
 
 void LocateBricks::enter() {
   WallContext& c = context();
-  asked_ = false;
-  c.look.start(c.expectedBricks(), c.storageNow());
+  c.brick_look.start(c.expectedBricks(), c.storageNow());
 }
 
 Transition LocateBricks::execute() {
   WallContext& c = context();
   if (!c.belief.pile) return transit<DriveToPile>().because("the pile was not found yet");
-  if (asked_) {
-    c.bricks.tick();
-    if (!c.bricks.answer()) return stay();
-    const Result<BrickSight> sight = *c.bricks.answer();
-    return sight ? conclude(*sight) : again(sight.error().message);
-  }
-  const SkillStatus look = c.look.poll(now());
+  const SkillStatus look = c.brick_look.poll(now());
   display("looking at the bricks: " + look.text);
   if (look.phase == SkillPhase::Failed) return again(look.text);
   if (look.phase != SkillPhase::Done) return stay();
-  asked_ = true;
-  c.askForBricks(c.look.sweep(), c.expectedBricks().target);
-  return stay();
+  return conclude(c.brick_look.sight());
 }
 
 Transition LocateBricks::conclude(const BrickSight& sight) {

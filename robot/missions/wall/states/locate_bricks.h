@@ -26,7 +26,6 @@ class LocateBricks
   [[nodiscard]] Transition conclude(const BrickSight& sight);
   [[nodiscard]] Transition goOn(const std::string& found);
   [[nodiscard]] Transition again(const std::string& why);
-  bool asked_ = false;
 };
 
 }  // namespace kiln

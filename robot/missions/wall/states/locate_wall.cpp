@@ -6,6 +6,7 @@
 
 #include "common/core/units.h"
 #include "robot/missions/wall/pile_bricks.h"
+#include "robot/missions/wall/states/drive_to_wall.h"
 #include "robot/missions/wall/states/take_out_brick.h"
 #include "robot/missions/wall/states/wall_given_up.h"
 
@@ -13,25 +14,19 @@ namespace kiln {
 
 void LocateWall::enter() {
   WallContext& c = context();
-  asked_ = false;
-  c.look.start(c.expectedWall(), c.storageNow());
+  if (c.belief.wall && !c.belief.built.empty())
+    c.brick_look.start(c.expectedWall(), c.storageNow());
 }
 
 Transition LocateWall::execute() {
   WallContext& c = context();
-  if (asked_) {
-    c.bricks.tick();
-    if (!c.bricks.answer()) return stay();
-    const Result<BrickSight> sight = *c.bricks.answer();
-    return sight ? conclude(*sight) : again(sight.error().message);
-  }
-  const SkillStatus look = c.look.poll(now());
+  if (!c.belief.wall) return transit<DriveToWall>().because("the marker was not found yet");
+  if (c.belief.built.empty()) return transit<TakeOutBrick>().because("nothing was built yet");
+  const SkillStatus look = c.brick_look.poll(now());
   display("looking at the wall: " + look.text);
   if (look.phase == SkillPhase::Failed) return again(look.text);
   if (look.phase != SkillPhase::Done) return stay();
-  asked_ = true;
-  c.askForBricks(c.look.sweep(), c.expectedWall().target);
-  return stay();
+  return conclude(c.brick_look.sight());
 }
 
 /// All bricks that are seen well say together how far the base erred on its way.

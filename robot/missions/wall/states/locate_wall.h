@@ -4,11 +4,12 @@
 
 namespace kiln {
 
+class DriveToWall;
 class TakeOutBrick;
 
 /// Sweeps the LiDAR over what was built and corrects where the wall stands from here (paper, "Brick
 /// and Wall Perception"): the base has driven since.
-class LocateWall : public WallState<LocateWall, To<LocateWall, TakeOutBrick>> {
+class LocateWall : public WallState<LocateWall, To<DriveToWall, LocateWall, TakeOutBrick>> {
  public:
   static constexpr const char* kGroup = kPerception;
   static constexpr const char* kDoc = "Sweeps the LiDAR over what was built and finds it again";
@@ -19,7 +20,6 @@ class LocateWall : public WallState<LocateWall, To<LocateWall, TakeOutBrick>> {
  private:
   [[nodiscard]] Transition conclude(const BrickSight& sight);
   [[nodiscard]] Transition again(const std::string& why);
-  bool asked_ = false;
 };
 
 }  // namespace kiln

@@ -13,10 +13,19 @@ namespace kiln {
 
 void SetBrick::enter() {
   WallContext& c = context();
-  drawing_back_ = false;
-  away_ = !c.hands || !c.belief.held || !c.unloading() || !c.standsAt(c.buildingPose());
+  away_ = !c.hands || !c.belief.held || !c.belief.unloading() || !c.belief.wall ||
+          !c.standsAt(c.buildingPose());
   if (away_) return;
   c.handleBricks();
+  // The arm holds meanwhile, with what hangs on it.
+  c.parts.arm_control->carry(c.belief.held->payload(c.parts.robot));
+  stage_ = Stage::LeavingBin;
+  if (!exit_.start(c, now())) beginSet();
+}
+
+void SetBrick::beginSet() {
+  WallContext& c = context();
+  stage_ = Stage::Setting;
   const Eigen::Isometry3d X_base_wall = toIsometry(inverse(c.parts.pose()) * c.X_map_wall());
   std::optional<Eigen::Vector3d> towards = c.towardsNeighbour();
   if (towards) towards = X_base_wall.linear() * *towards;
@@ -28,7 +37,24 @@ Transition SetBrick::execute() {
   const WallContext& c = context();
   if (!c.belief.held) return transit<TakeOutBrick>().because("no brick hangs on the gripper");
   if (away_) return transit<StoreBrick>().because("it is set from elsewhere");
-  return drawing_back_ ? drawBack() : pollSet();
+  switch (stage_) {
+    case Stage::LeavingBin:
+      return leaveBin();
+    case Stage::Setting:
+      return pollSet();
+    case Stage::DrawingBack:
+      return drawBack();
+  }
+  return stay();
+}
+
+/// After an interruption: it still stands where it was taken from.
+Transition SetBrick::leaveBin() {
+  const SkillStatus out = exit_.poll(now());
+  display(context().belief.held->name + " is led out of the storage: " + out.text);
+  if (out.phase == SkillPhase::Failed) return failed("not out of the storage: " + out.text);
+  if (out.phase == SkillPhase::Done) beginSet();
+  return stay();
 }
 
 Transition SetBrick::pollSet() {
@@ -36,21 +62,27 @@ Transition SetBrick::pollSet() {
   const SkillStatus set = c.hands->set.poll(now());
   display(c.belief.held->name + ": " + set.text);
   if (set.phase == SkillPhase::Failed) {
-    if (c.hands->set.placement()) return transit<WallGivenUp>().because(set.text);
+    if (c.hands->set.hasLetGo()) return placed(set.text);
     if (c.hands->set.drop()) {
       c.belief.held.reset();
       return transit<WallGivenUp>().because("a brick that is needed next is lost: " + set.text);
     }
     met_ = set.text;
-    drawing_back_ = true;
+    stage_ = Stage::DrawingBack;
     c.parts.arm.startBack(c.config.building.back_s, now());
     return stay();
   }
   if (set.phase != SkillPhase::Done) return stay();
+  return placed("");
+}
+
+Transition SetBrick::placed(const std::string& after) {
+  WallContext& c = context();
   const Eigen::Isometry3d X_map_base = toIsometry(c.parts.pose());
   c.belief.built.push_back(toIsometry(c.X_map_wall()).inverse() * X_map_base *
                            c.hands->set.placement()->X_base_brick);
-  const std::string name = c.belief.held->name;
+  std::string name = c.belief.held->name;
+  if (!after.empty()) name += " (" + after + ")";
   c.belief.held.reset();
   c.belief.handling_faults = 0;
   const std::string how_far =

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "robot/missions/wall/bin_exit.h"
 #include "robot/missions/wall/wall_state.h"
 
 namespace kiln {
@@ -22,11 +23,17 @@ class SetBrick : public WallState<SetBrick, To<DriveToWall, LocateWall, TakeOutB
   Transition execute() override;
 
  private:
+  void beginSet();
+  [[nodiscard]] Transition leaveBin();
   [[nodiscard]] Transition pollSet();
+  /// @param after  what the arm met when it left; empty: nothing
+  [[nodiscard]] Transition placed(const std::string& after);
   [[nodiscard]] Transition drawBack();
   [[nodiscard]] Transition failed(const std::string& why);
   bool away_ = false;  ///< from where it can be set: it goes back into its bin
-  bool drawing_back_ = false;
+  enum class Stage { LeavingBin, Setting, DrawingBack };
+  Stage stage_ = Stage::Setting;
+  BinExit exit_;
   std::string met_;
 };
 

@@ -21,21 +21,17 @@ constexpr std::array kAskew{0, 1, -1, 2, -2};
 
 void StoreBrick::enter() {
   WallContext& c = context();
-  stage_ = Stage::Choosing;
-  tried_ = 0;
+  stage_ = Stage::ReachingBin;
   inserts_ = 0;
   aside_m_ = 0.0;
   side_ = 0;
   turned_ = 0;
   between_ = false;
-  postures_.clear();
   if (!c.belief.held || !c.hands) return;
-  step_ = c.heldStep();
-  postures_ = c.posturesFor(step_);
   c.handleBricks();
   // The arm holds meanwhile, with what hangs on it.
   c.parts.arm_control->carry(c.belief.held->payload(c.parts.robot));
-  beginChoice();
+  bin_.start(c, c.heldStep(), *c.belief.held);
 }
 
 Transition StoreBrick::execute() {
@@ -43,12 +39,8 @@ Transition StoreBrick::execute() {
   if (!c.belief.held || !c.hands)
     return transit<LocateBricks>().because("no brick hangs on the gripper");
   switch (stage_) {
-    case Stage::LeavingBin:
-      return leaveBin();
-    case Stage::Choosing:
-      return choosePosture();
-    case Stage::Travelling:
-      return pollTravel();
+    case Stage::ReachingBin:
+      return reachBin();
     case Stage::Storing:
       return pollStore();
     case Stage::DrawingBack:
@@ -57,46 +49,12 @@ Transition StoreBrick::execute() {
   return stay();
 }
 
-/// No compartment travels while the brick stands in a bin.
-void StoreBrick::beginChoice() {
+Transition StoreBrick::reachBin() {
   WallContext& c = context();
-  stage_ = Stage::Choosing;
-  const auto out = c.flangeOutOfBin();
-  if (!out) return;
-  stage_ = Stage::LeavingBin;
-  c.parts.arm.setTerms(c.leavingBin());
-  c.parts.arm.startCartesian({*out}, false, now());
-}
-
-/// A brick that stands in a bin, after an interruption or a fault, is led out the way it came.
-Transition StoreBrick::leaveBin() {
-  WallContext& c = context();
-  const SkillStatus out = c.parts.arm.poll(now());
-  display(c.belief.held->name + " is led out of the storage: " + out.text);
-  if (out.phase == SkillPhase::Failed) return failed("not out of the storage: " + out.text);
-  if (out.phase == SkillPhase::Done) stage_ = Stage::Choosing;
-  return stay();
-}
-
-/// One a tick: where the compartment has to stand for the arm to reach the bin.
-Transition StoreBrick::choosePosture() {
-  WallContext& c = context();
-  const auto reached = c.checkSeat(step_, postures_[tried_], *c.belief.held);
-  if (reached) {
-    stage_ = Stage::Travelling;
-    c.hands->travel.start(postures_[tried_], now());
-    return stay();
-  }
-  if (++tried_ < postures_.size()) return stay();
-  return failed("its bin is out of the arm's reach: " + reached.error().message);
-}
-
-Transition StoreBrick::pollTravel() {
-  WallContext& c = context();
-  const SkillStatus travel = c.hands->travel.poll(now());
-  display(c.belief.held->name + ": " + travel.text);
-  if (travel.phase == SkillPhase::Failed) return failed(travel.text);
-  if (travel.phase != SkillPhase::Done) return stay();
+  const SkillStatus bin = bin_.poll(now());
+  display(c.belief.held->name + ": " + bin.text);
+  if (bin.phase == SkillPhase::Failed) return failed(bin.text);
+  if (bin.phase != SkillPhase::Done) return stay();
   stage_ = Stage::Storing;
   beginStore();
   return stay();
@@ -111,10 +69,10 @@ void StoreBrick::beginStore() {
     return X_base_brick * Eigen::Translation3d(0, aside_m_, 0) *
            Eigen::AngleAxisd(askew_rad, Eigen::Vector3d::UnitZ());
   };
-  std::vector<Eigen::Isometry3d> way = c.seatWay(step_, postures_[tried_]);
+  std::vector<Eigen::Isometry3d> way = c.seatWay(bin_.step(), bin_.posture());
   for (Eigen::Isometry3d& X : way) X = beside(X);
   c.hands->store.start(
-      {*c.belief.held, beside(c.X_base_seat(step_, postures_[tried_], c.config.storage.front_m)),
+      {*c.belief.held, beside(c.X_base_seat(bin_.step(), bin_.posture(), c.config.storage.front_m)),
        c.aroundHands(), std::nullopt, std::move(way)},
       now());
 }
@@ -124,6 +82,7 @@ Transition StoreBrick::pollStore() {
   const SkillStatus store = c.hands->store.poll(now());
   display(c.belief.held->name + ": " + store.text);
   if (store.phase == SkillPhase::Failed) {
+    if (c.hands->store.hasLetGo()) return stored(store.text);
     if (c.hands->store.drop()) c.belief.held.reset();
     if (c.belief.held && store.failure_code == "contact" &&
         ++inserts_ < c.config.loading.max_tries) {
@@ -136,15 +95,21 @@ Transition StoreBrick::pollStore() {
     }
     const bool from_elsewhere =
         store.failure_code == "in_collision" || store.failure_code == "unreachable";
-    if (c.belief.held && from_elsewhere && ++tried_ < postures_.size()) {
-      beginChoice();
+    if (c.belief.held && from_elsewhere && bin_.tryNext()) {
+      stage_ = Stage::ReachingBin;
       return stay();
     }
     return failed(store.text);
   }
   if (store.phase != SkillPhase::Done) return stay();
-  const std::string name = c.belief.held->name;
-  const bool back = c.unloading();
+  return stored("");
+}
+
+Transition StoreBrick::stored(const std::string& after) {
+  WallContext& c = context();
+  std::string name = c.belief.held->name;
+  if (!after.empty()) name += " (" + after + ")";
+  const bool back = c.belief.unloading();
   c.belief.held.reset();
   c.belief.handling_faults = 0;
   if (back) {
@@ -168,7 +133,7 @@ void StoreBrick::giveWay() {
   const WallContext& c = context();
   const auto arm = c.parts.arm_device.state();
   if (!arm) return;
-  const Eigen::Matrix3d R = c.X_base_seat(step_, postures_[tried_]).linear().transpose() *
+  const Eigen::Matrix3d R = c.X_base_seat(bin_.step(), bin_.posture()).linear().transpose() *
                             c.parts.robot.X_base_armbase.pose().linear();
   const Eigen::Vector3d force = R * arm->wrench_tool.head<3>();
   const Eigen::Vector3d torque = R * arm->wrench_tool.tail<3>();
@@ -204,7 +169,7 @@ Transition StoreBrick::failed(const std::string& why) {
   WallContext& c = context();
   if (++c.belief.handling_faults > c.config.loading.max_faults)
     return transit<WallGivenUp>().because("a brick cannot be stored: " + why);
-  if (!c.belief.held && c.unloading())
+  if (!c.belief.held && c.belief.unloading())
     return transit<WallGivenUp>().because("a brick that is needed next is lost: " + why);
   if (!c.belief.held) return transit<LocateBricks>().because(why);
   return transit<StoreBrick>().because("once more: " + why);

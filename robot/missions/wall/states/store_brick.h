@@ -1,5 +1,6 @@
 #pragma once
 
+#include "robot/missions/wall/bin_access.h"
 #include "robot/missions/wall/wall_state.h"
 
 namespace kiln {
@@ -23,20 +24,17 @@ class StoreBrick
   Transition execute() override;
 
  private:
-  [[nodiscard]] Transition leaveBin();
-  [[nodiscard]] Transition choosePosture();
-  [[nodiscard]] Transition pollTravel();
+  [[nodiscard]] Transition reachBin();
   [[nodiscard]] Transition pollStore();
+  /// @param after  what the arm met when it left; empty: nothing
+  [[nodiscard]] Transition stored(const std::string& after);
   [[nodiscard]] Transition drawBack();
-  void beginChoice();
   void beginStore();
   void giveWay();
   [[nodiscard]] Transition failed(const std::string& why);
-  enum class Stage { LeavingBin, Choosing, Travelling, Storing, DrawingBack };
-  Stage stage_ = Stage::LeavingBin;
-  StorageStep step_;                      ///< where the brick belongs
-  std::vector<StoragePosture> postures_;  ///< to be tried, the planned one first
-  std::size_t tried_ = 0;
+  enum class Stage { ReachingBin, Storing, DrawingBack };
+  Stage stage_ = Stage::ReachingBin;
+  BinAccess bin_;
   int inserts_ = 0;
   double aside_m_ = 0.0;  ///< of the seat's middle, along its Y
   int side_ = 0;          ///< on which it met something last

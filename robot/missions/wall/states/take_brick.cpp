@@ -12,8 +12,7 @@ void TakeBrick::enter() {
   brick_ = c.nextBrick();
   hangs_ = false;
   if (!brick_ || !c.hands) return;
-  const auto gripper = c.parts.gripper->state();
-  hangs_ = gripper && gripper->on.any() && gripper->contact;
+  hangs_ = c.somethingHangs();
   if (hangs_) return;
   c.handleBricks();
   c.hands->pick.start({c.knownBrick(*brick_), c.aroundHands(), std::nullopt, 0.0}, now());

@@ -11,65 +11,49 @@ namespace kiln {
 
 void TakeOutBrick::enter() {
   WallContext& c = context();
-  stage_ = Stage::Choosing;
-  tried_ = 0;
-  postures_.clear();
-  if (c.isBuilt() || !c.hands) return;
-  step_ = c.nextOut();
-  postures_ = c.posturesFor(step_);
-  brick_ = {fmt::format("brick {} of the wall", step_.brick + 1),
-            c.load().storage.sequence[step_.brick], Eigen::Isometry3d::Identity()};
+  stage_ = Stage::ReachingBin;
+  hangs_ = false;
+  if (c.isBuilt() || !c.hands || !c.belief.wall) return;
+  const StorageStep& step = c.nextOut();
+  brick_ = {fmt::format("brick {} of the wall", step.brick + 1),
+            c.load().storage.sequence[step.brick], Eigen::Isometry3d::Identity()};
   c.handleBricks();
+  // Gripped before an interruption: where on the face is not known, but within what is allowed.
+  hangs_ = c.somethingHangs();
+  bin_.start(c, step, {brick_.name, brick_.kind, X_brick_face({0, 0}, false).inverse(), 0.0});
 }
 
 Transition TakeOutBrick::execute() {
   const WallContext& c = context();
   if (c.isBuilt()) return transit<WallBuilt>().because("every brick is set");
-  if (!c.hands || c.belief.stored <= c.belief.built.size())
-    return transit<WallGivenUp>().because("the storage is empty");
-  if (stage_ == Stage::Choosing && !c.standsAt(c.buildingPose()))
-    return transit<DriveToWall>().because("the base stands elsewhere");
-  switch (stage_) {
-    case Stage::Choosing:
-      return choosePosture();
-    case Stage::Travelling:
-      return pollTravel();
-    case Stage::Taking:
-      return pollTake();
+  if (stage_ == Stage::ReachingBin) {
+    if (c.belief.unloading())
+      return transit<WallGivenUp>().because("the brick that is needed next is lost");
+    if (!c.hands || !c.inStorage(c.nextOut().brick))
+      return transit<WallGivenUp>().because("the brick that is needed next is not in the storage");
+    if (!c.belief.wall || !c.standsAt(c.buildingPose()))
+      return transit<DriveToWall>().because("the base stands elsewhere");
+    if (hangs_)
+      return taken({brick_.name, brick_.kind, X_brick_face({0, 0}, false).inverse(), 0.0});
   }
-  return stay();
+  return stage_ == Stage::ReachingBin ? reachBin() : pollTake();
 }
 
-/// One a tick: where the compartment has to stand for the arm to reach the bin.
-Transition TakeOutBrick::choosePosture() {
+Transition TakeOutBrick::reachBin() {
   WallContext& c = context();
-  const HeldBrick as_held{brick_.name, brick_.kind, X_brick_face({0, 0}, false).inverse(), 0.0};
-  const auto reached = c.checkSeat(step_, postures_[tried_], as_held);
-  if (reached) {
-    stage_ = Stage::Travelling;
-    c.hands->travel.start(postures_[tried_], now());
-    return stay();
-  }
-  if (++tried_ < postures_.size()) return stay();
-  return failed("its bin is out of the arm's reach: " + reached.error().message);
-}
-
-Transition TakeOutBrick::pollTravel() {
-  WallContext& c = context();
-  const SkillStatus travel = c.hands->travel.poll(now());
-  display(brick_.name + ": " + travel.text);
-  if (travel.phase == SkillPhase::Failed) return failed(travel.text);
-  if (travel.phase != SkillPhase::Done) return stay();
+  const SkillStatus bin = bin_.poll(now());
+  display(brick_.name + ": " + bin.text);
+  if (bin.phase == SkillPhase::Failed) return failed(bin.text);
+  if (bin.phase != SkillPhase::Done) return stay();
   stage_ = Stage::Taking;
-  const Eigen::Isometry3d X_seat = c.X_base_seat(step_, postures_[tried_]);
-  brick_.X_frame_brick = X_seat;
+  brick_.X_frame_brick = c.X_base_seat(bin_.step(), bin_.posture());
   std::vector<OrientedBox> around = c.aroundHands();
-  const OrientedBox itself = boxesOf({&brick_, 1}).front();
-  std::erase_if(around, [&](const OrientedBox& box) {
-    return (box.X_frame_box.translation() - itself.X_frame_box.translation()).norm() < 1e-6;
+  const Eigen::Vector3d place = brick_.X_frame_brick.translation();
+  std::erase_if(around, [&](const OrientedBox& box) {  // itself
+    return (box.X_frame_box.translation() - place).norm() < 1e-6;
   });
-  c.hands->take_out.start(
-      {brick_, std::move(around), X_seat.linear().col(0).eval(), c.config.building.out_m}, now());
+  const Eigen::Vector3d up = brick_.X_frame_brick.linear().col(0);
+  c.hands->take_out.start({brick_, std::move(around), up, c.config.building.out_m}, now());
   return stay();
 }
 
@@ -77,18 +61,27 @@ Transition TakeOutBrick::pollTake() {
   WallContext& c = context();
   const SkillStatus take = c.hands->take_out.poll(now());
   display(brick_.name + ": " + take.text);
-  if (take.phase == SkillPhase::Done) {
-    c.belief.held = *c.hands->take_out.held();
-    ++c.belief.taken_out;
-    c.belief.handling_faults = 0;
-    return transit<SetBrick>().because(brick_.name + " hangs on the gripper");
-  }
+  if (take.phase == SkillPhase::Done) return taken(*c.hands->take_out.held());
   if (take.phase != SkillPhase::Failed) return stay();
   if (c.hands->take_out.drop()) {
     ++c.belief.taken_out;
     return transit<WallGivenUp>().because("a brick that is needed next is lost: " + take.text);
   }
+  const bool from_elsewhere =
+      take.failure_code == "in_collision" || take.failure_code == "unreachable";
+  if (from_elsewhere && bin_.tryNext()) {
+    stage_ = Stage::ReachingBin;
+    return stay();
+  }
   return failed(take.text);
+}
+
+Transition TakeOutBrick::taken(HeldBrick held) {
+  WallBelief& belief = context().belief;
+  belief.held = std::move(held);
+  ++belief.taken_out;
+  belief.handling_faults = 0;
+  return transit<SetBrick>().because(brick_.name + " hangs on the gripper");
 }
 
 Transition TakeOutBrick::failed(const std::string& why) {

@@ -1,7 +1,6 @@
 #pragma once
 
-#include <vector>
-
+#include "robot/missions/wall/bin_access.h"
 #include "robot/missions/wall/wall_state.h"
 
 namespace kiln {
@@ -12,7 +11,8 @@ class WallBuilt;
 
 /// Takes what is built next out of its bin: the compartments travel to where the arm reaches it, then
 /// it is gripped at its plate, lifted a little and led out to the front.
-class TakeOutBrick : public WallState<TakeOutBrick, To<DriveToWall, SetBrick, TakeOutBrick, WallBuilt>> {
+class TakeOutBrick
+    : public WallState<TakeOutBrick, To<DriveToWall, SetBrick, TakeOutBrick, WallBuilt>> {
  public:
   static constexpr const char* kGroup = kManipulation;
   static constexpr const char* kDoc = "Takes the brick that is built next out of its bin";
@@ -22,16 +22,15 @@ class TakeOutBrick : public WallState<TakeOutBrick, To<DriveToWall, SetBrick, Ta
   Transition execute() override;
 
  private:
-  [[nodiscard]] Transition choosePosture();
-  [[nodiscard]] Transition pollTravel();
+  [[nodiscard]] Transition reachBin();
   [[nodiscard]] Transition pollTake();
+  [[nodiscard]] Transition taken(HeldBrick held);
   [[nodiscard]] Transition failed(const std::string& why);
-  enum class Stage { Choosing, Travelling, Taking };
-  Stage stage_ = Stage::Choosing;
-  KnownBrick brick_;
-  StorageStep step_;
-  std::vector<StoragePosture> postures_;  ///< to be tried, the planned one first
-  std::size_t tried_ = 0;
+  enum class Stage { ReachingBin, Taking };
+  Stage stage_ = Stage::ReachingBin;
+  KnownBrick brick_;  ///< in base, once its bin stands where it is taken out
+  BinAccess bin_;
+  bool hangs_ = false;  ///< it was gripped before an interruption
 };
 
 }  // namespace kiln

@@ -24,7 +24,9 @@ TEST(PileLayout, LineOneIsAsLongAsThePageSaysAndLineTwoStandsBehindIt) {
     const Eigen::Vector3d& p = slot.X_pile_brick.translation();
     const double end = p.x() + brickShape(slot.kind).length_m / 2.0;
     (p.y() > 1.0 ? line2 : line1) = std::max(p.y() > 1.0 ? line2 : line1, end);
-    if (slot.kind == BrickKind::Orange) EXPECT_NEAR(p.y(), 2.6, 1e-12);
+    if (slot.kind == BrickKind::Orange) {
+      EXPECT_NEAR(p.y(), 2.6, 1e-12);
+    }
   }
   EXPECT_NEAR(line1, 4.2, 1e-12);
   EXPECT_NEAR(line2, 3.7, 1e-12);

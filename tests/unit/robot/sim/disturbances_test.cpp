@@ -126,7 +126,7 @@ TEST(Walkers, AreSeenByTheLidarOnlyWhileTheyAreThere) {
 TEST(PersonInWay, StepsToThePlaceStandsThereAndStepsBack) {
   auto world = std::move(*World::create(withFault({}, "person_in_way=6.6,0@1:3"), 1));
   const auto peopleAt = [&](double t_s) {
-    world->advance(Stamp{fromSeconds(t_s)});
+    (void)world->advance(Stamp{fromSeconds(t_s)});
     return world->truth().people;
   };
   EXPECT_TRUE(peopleAt(0.9).empty());

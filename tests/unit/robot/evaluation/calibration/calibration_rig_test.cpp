@@ -23,7 +23,8 @@ struct CalibrationRigTest : ::testing::Test {
   CalibrationRigTest() {
     rig = std::make_unique<CalibrationRig>(
         CalibrationRig::Config{}, robot, CalibrationYard{},
-        CalibrationDevices{arm, pumps, lidar, thermal, camera, clock, [this] { return step(); }});
+        CalibrationDevices{arm, lidar, clock, [this] { return step(); }, &pumps, &thermal,
+                           &camera});
   }
   Result<void> step() {
     clock.advanceBy(std::chrono::milliseconds(8));

@@ -43,6 +43,42 @@ TEST(WallBelief, ComesBackAsItWasSaved) {
   EXPECT_EQ(back->marker_looks, 1);
 }
 
+TEST(WallBelief, WhatWasBuiltComesBackWithWhatHangs) {
+  WallBelief belief = known();
+  belief.stored = 3;
+  belief.taken_out = 2;
+  belief.built = {belief.bricks[0].X_map_brick};
+  const auto back = wallBeliefFromJson(wallBeliefToJson(belief));
+  ASSERT_TRUE(back.has_value()) << back.error();
+  EXPECT_EQ(back->taken_out, 2u);
+  ASSERT_EQ(back->built.size(), 1u);
+  EXPECT_TRUE(back->built[0].isApprox(belief.built[0], 1e-12));
+  EXPECT_TRUE(back->unloading());
+  belief.held.reset();  // it fell on the way
+  const auto lost = wallBeliefFromJson(wallBeliefToJson(belief));
+  ASSERT_TRUE(lost.has_value()) << lost.error();
+  EXPECT_TRUE(lost->unloading());
+}
+
+TEST(WallBelief, MoreCannotBeBuiltThanWasTakenOutOrTakenOutThanWasStored) {
+  WallBelief good = known();
+  good.stored = 3;
+  good.taken_out = 2;
+  good.built = {Eigen::Isometry3d::Identity()};
+  WallBelief more_out = good, more_built = good, two_gone = good;
+  more_out.taken_out = 4;
+  more_built.built.resize(3, Eigen::Isometry3d::Identity());
+  two_gone.built.clear();
+  for (const WallBelief& bad : {more_out, more_built, two_gone}) {
+    const auto back = wallBeliefFromJson(wallBeliefToJson(bad));
+    ASSERT_FALSE(back.has_value());
+    EXPECT_NE(back.error().message.find("taken out"), std::string::npos) << back.error();
+  }
+  nlohmann::json damaged = wallBeliefToJson(good);
+  damaged["built"][0]["wxyz"] = {0.0, 0.0, 0.0, 0.0};
+  EXPECT_FALSE(wallBeliefFromJson(damaged).has_value());
+}
+
 TEST(WallBelief, WhatIsDamagedIsRefusedByName) {
   const nlohmann::json good = wallBeliefToJson(known());
   const auto refused = [](const nlohmann::json& saved) {

@@ -170,6 +170,24 @@ TEST(ArmCollision, HeadAndLoadMayTouchWhatIsNamedAndTheArmMayNot) {
   EXPECT_LT(around(links[4].a, {"it"}), 0.0) << "the forearm touches nothing";
 }
 
+TEST(ArmCollision, WhatIsCarriedMayTouchANamedPartOfTheBodyOnThatMotionAlone) {
+  RobotGeometry robot = loadBob();
+  const Vector6d q = RobotGeometry::radians(robot.q_drive_deg);
+  const Eigen::Vector3d below =
+      robot.X_base_flange(q) * robot.X_flange_tool.pose() * Eigen::Vector3d(0, 0, 0.24);
+  BoxConfig shelf{"shelf", {}, {0.1, 0.1, 0.1}};
+  shelf.center.xyz_m = {below.x(), below.y(), below.z()};
+  robot.body.push_back(shelf);
+  ArmCollision collision(robot);
+  collision.setCarried(makeBox(robot.X_flange_tool.pose() * Eigen::Translation3d(0, 0, 0.1),
+                               {0.3, 0.2, 0.2}, "load"));
+  EXPECT_LT(collision.distance(q), 0.0);
+  collision.setScene({}, {}, {{}, {"shelf"}});
+  EXPECT_GT(collision.distance(q), 0.01);
+  collision.setScene({}, {}, {});
+  EXPECT_LT(collision.distance(q), 0.0);
+}
+
 TEST(ArmCollision, NoPointMovesFartherThanTheMotionBound) {
   const RobotGeometry robot = loadBob();
   const ArmCollision collision(robot);

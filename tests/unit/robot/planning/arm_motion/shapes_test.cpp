@@ -61,7 +61,9 @@ TEST(Shapes, CapsuleToCapsuleAgreesWithDenseSampling) {
       }
     }
     ASSERT_LE(distance(a, b), sampled - 0.07 + 1e-6);
-    if (sampled > 0.07 + 0.02) ASSERT_NEAR(distance(a, b), sampled - 0.07, 0.02);
+    if (sampled > 0.07 + 0.02) {
+      ASSERT_NEAR(distance(a, b), sampled - 0.07, 0.02);
+    }
   }
 }
 

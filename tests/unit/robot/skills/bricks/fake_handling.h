@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <functional>
 
 #include <gtest/gtest.h>
 
@@ -37,8 +38,8 @@ class FakeGripper final : public Gripper {
 };
 
 /// Motions that end as the test says, one poll after their start: "" is there, "contact" met
-/// something, "never" goes on. None left: there.
-class ToldMotion final : public ArmMotion {
+/// something, "never" goes on. None left: as `rule` says by their terms, without one: there.
+class ToldMotion : public ArmMotion {
  public:
   void setTerms(ArmMoveTerms given) override { terms = std::move(given); }
   void startJoints(const Vector6d&, Stamp) override { begin({}); }
@@ -60,6 +61,7 @@ class ToldMotion final : public ArmMotion {
   }
 
   std::deque<std::string> endings;
+  std::function<std::string(const ArmMoveTerms&)> rule;
   std::optional<Error> refused;
   std::vector<Eigen::Isometry3d> goals;  ///< X_base_flange of each start
   std::vector<ArmMoveTerms> under;       ///< the terms of each
@@ -71,7 +73,7 @@ class ToldMotion final : public ArmMotion {
   void begin(const Eigen::Isometry3d& X_base_flange) {
     goals.push_back(X_base_flange);
     under.push_back(terms);
-    ending.clear();
+    ending = rule ? rule(terms) : "";
     if (endings.empty()) return;
     ending = endings.front();
     endings.pop_front();

@@ -32,7 +32,8 @@ TEST_F(PickBrickTest, GripsWeighsAndLiftsAndTellsTheArm) {
   EXPECT_NEAR(f.arm.payloads().back().mass_kg, 6.0, 1e-9);
   EXPECT_NEAR(pick.held()->weighed_kg, 1.0, 0.01);
   ASSERT_EQ(f.motion.goals.size(), 4U);
-  EXPECT_NEAR(f.motion.goals[0].translation().z() - f.motion.goals[1].translation().z(), 0.065, 1e-9)
+  EXPECT_NEAR(f.motion.goals[0].translation().z() - f.motion.goals[1].translation().z(), 0.065,
+              1e-9)
       << "4.5 cm before the plate to 2 cm beyond";
   EXPECT_FALSE(f.motion.under[0].carried.has_value());
   EXPECT_TRUE(f.motion.under[2].carried.has_value()) << "planned with the brick in hand";
