@@ -32,7 +32,7 @@ struct RobotBody {
         base(settings.base, robot, devices.base, stop),
         arm(settings.arm, robot, devices.arm, stop),
         pumps(settings.pumps, pump_device, stop),
-        drive(settings.drive_to, arena, base, pose),
+        drive(settings.drive_to, robot, arena, base, pose),
         move_arm(settings.move_arm, robot, arena, arm, devices.arm, pose) {
     belief.X_map_base = arena.start.pose();
   }

@@ -96,12 +96,18 @@ const std::vector<Evaluation>& evaluations() {
        {1, 100},
        {kPileWorld, kNeededCells, kCalibrate}},
       {"wall-survey",
-       "the wall mission as far as it goes: pile and marker as found in the lab's world, against "
-       "the truth",
+       "pile, bricks and marker as the wall mission finds them in the lab's world, against the "
+       "truth; nothing is touched",
        evaluateWallSurvey,
        {1, 10},
        {kCalibrate},
        {"wall", judgeWall}},
+      {"lab-wall",
+       "the paper's lab test: eleven bricks from the pile into the storage and into the wall, with "
+       "the time that each part takes",
+       evaluateLabWall,
+       {1, 50},
+       {kCalibrate}},
       {"calibrate",
        "finds the mounting of the sensors by moving the arm; --out FILE is for "
        "kiln-robotd --calibration",

@@ -73,6 +73,7 @@ struct Evaluation {
 [[nodiscard]] std::string judgeWall(const nlohmann::json& robot, const nlohmann::json& truth,
                                     nlohmann::json& report);
 [[nodiscard]] Result<EvaluationResult> evaluateWallSurvey(const SweepOptions& options);
+[[nodiscard]] Result<EvaluationResult> evaluateLabWall(const SweepOptions& options);
 [[nodiscard]] Result<EvaluationResult> calibrateSensors(const SweepOptions& options);
 [[nodiscard]] Result<EvaluationResult> calibrateSpray(const SweepOptions& options);
 

@@ -33,7 +33,8 @@ Result<MissionRun> runCalibrated(MissionRunOptions run, const SweepOptions& opti
 
 }  // namespace
 
-std::vector<SeedResult> runSeeds(const SweepOptions& options, const std::string& mission) {
+std::vector<SeedResult> runSeeds(const SweepOptions& options, const std::string& mission,
+                                 const std::vector<std::string>& robot_args) {
   const int count = std::max(0, options.last_seed - options.first_seed + 1);
   std::vector<SeedResult> results(static_cast<std::size_t>(count));
   std::atomic<int> next{0};
@@ -46,8 +47,9 @@ std::vector<SeedResult> runSeeds(const SweepOptions& options, const std::string&
         run.seed = options.first_seed + i;
         run.trace = true;
         run.world = options.world;
+        run.robot_args = robot_args;
         if (!options.localization.empty())
-          run.robot_args = {"--localization", options.localization};
+          run.robot_args.insert(run.robot_args.end(), {"--localization", options.localization});
         SeedResult& result = results[static_cast<std::size_t>(i)];
         result = {run.seed, runCalibrated(run, options)};
         fmt::print(

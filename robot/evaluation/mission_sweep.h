@@ -20,7 +20,9 @@ struct SeedResult {
 /// Runs a mission (empty: the first of the catalogue) on all seeds in lockstep, with the truth
 /// trace, `options.jobs` at a time; results in seed order whatever the timing. With
 /// `options.calibrate` each seed's robot is calibrated first.
+/// @param robot_args  passed on to kiln-robotd.
 [[nodiscard]] std::vector<SeedResult> runSeeds(const SweepOptions& options,
-                                               const std::string& mission = "");
+                                               const std::string& mission = "",
+                                               const std::vector<std::string>& robot_args = {});
 
 }  // namespace kiln

@@ -55,18 +55,18 @@ void DriveTo::Config::visit(ConfigArchive& a) {
   a.field("edge_distance_m", edge_distance_m, "m", 0, 2, "slow from so far before it on");
   a.section("guard", guard, "live cloud ahead of the driving base");
   a.section("fence", fence, "way-points against the arena's border");
-  a.field("footprint_length_m", footprint_length_m, "m", 0, 5, "checked against known boxes");
-  a.field("footprint_width_m", footprint_width_m, "m", 0, 5, "checked against known boxes");
 }
 
 struct DriveTo::Impl {
-  Impl(Config c, const ArenaMap& arena_map, BaseController& controller, PoseSource source)
+  Impl(Config c, const RobotGeometry& geometry, const ArenaMap& arena_map,
+       BaseController& controller, PoseSource source)
       : config(c),
+        robot(geometry),
         arena(arena_map),
         base(controller),
         pose(std::move(source)),
         guard(c.guard),
-        fence(fenceOf(arena_map, c)),
+        fence(arenaFence(arena_map, geometry, c.fence)),
         stuck({c.stuck_window_s, c.stuck_ratio, path_config.turn_weight_m}) {
     path_config.speed_mps = c.speed_mps;
     path_config.approach_speed_mps = c.approach_speed_mps;
@@ -75,13 +75,6 @@ struct DriveTo::Impl {
     path_config.accel_mps2 = c.accel_mps2;
     path_config.jerk_time_s = c.jerk_time_s;
     path_config.corner_radius_m = c.corner_radius_m;
-  }
-
-  static Result<Geofence> fenceOf(const ArenaMap& arena_map, const Config& c) {
-    RobotGeometry footprint;
-    footprint.length_m = c.footprint_length_m;
-    footprint.width_m = c.footprint_width_m;
-    return arenaFence(arena_map, footprint, c.fence);
   }
 
   bool inFence(const Pose2& p, double slack) const { return fence->room(p) >= -slack; }
@@ -138,8 +131,7 @@ struct DriveTo::Impl {
       fail("geofence", "the way between the way-points leaves the geofence", now);
       return;
     }
-    const auto hit =
-        firstObstacle(*path, config.footprint_length_m, config.footprint_width_m, obstacles(arena));
+    const auto hit = firstObstacle(*path, robot.length_m, robot.width_m, obstacles(arena));
     if (hit) fail("in_collision", "the way leads through: " + *hit, now);
     stuck.restart(now, here);
   }
@@ -150,7 +142,7 @@ struct DriveTo::Impl {
     const BasePath::Point ref = path->at(clock_s);
     const double speed = std::hypot(ref.v_map.vx_mps, ref.v_map.vy_mps);
     const double away = std::abs(ref.X_map_base.x_m - arena.approach.edge_x_m);
-    if (away > 0.5 * config.footprint_length_m + config.edge_distance_m) return 1.0;
+    if (away > 0.5 * robot.length_m + config.edge_distance_m) return 1.0;
     return std::min(1.0, config.edge_speed_mps / std::max(1e-6, speed));
   }
 
@@ -226,9 +218,8 @@ struct DriveTo::Impl {
       return fail("stuck", "the base does not follow its wheels' command", now);
     }
     if (path->duration() > 0.0 && surroundings) {
-      const CorridorGuard::View ahead =
-          guard.look(*surroundings, *path, path->at(clock_s).s, here, config.footprint_length_m,
-                     config.footprint_width_m, now);
+      const CorridorGuard::View ahead = guard.look(*surroundings, *path, path->at(clock_s).s, here,
+                                                   robot.length_m, robot.width_m, now);
       speed_limit = ahead.max_speed_mps;
       hindrance = ahead.reason;
       if (ahead.given_up) return fail("blocked", ahead.reason, now);
@@ -264,6 +255,7 @@ struct DriveTo::Impl {
 
   Config config;
   BasePathConfig path_config;
+  const RobotGeometry& robot;
   const ArenaMap& arena;
   BaseController& base;
   PoseSource pose;
@@ -284,8 +276,9 @@ struct DriveTo::Impl {
   bool arrived = false;
 };
 
-DriveTo::DriveTo(Config config, const ArenaMap& arena, BaseController& base, PoseSource pose)
-    : impl_(std::make_unique<Impl>(config, arena, base, std::move(pose))) {}
+DriveTo::DriveTo(Config config, const RobotGeometry& robot, const ArenaMap& arena,
+                 BaseController& base, PoseSource pose)
+    : impl_(std::make_unique<Impl>(config, robot, arena, base, std::move(pose))) {}
 DriveTo::~DriveTo() = default;
 
 void DriveTo::setSurroundings(const Surroundings* surroundings) {

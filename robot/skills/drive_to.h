@@ -48,11 +48,12 @@ class DriveTo final : public BaseMotion {
     double stuck_ratio = 0.3;     ///< less of the commanded way than this is stuck
     CorridorGuard::Config guard;  ///< against the live cloud
     Geofence::Config fence;       ///< for the way-points; the controller holds the same
-    double footprint_length_m = 1.9, footprint_width_m = 1.4;  ///< checked against the known boxes
     void visit(ConfigArchive& a);
   };
   using PoseSource = std::function<Pose2()>;  ///< newest X_map_base
-  DriveTo(Config config, const ArenaMap& arena, BaseController& base, PoseSource pose);
+  /// @param robot  its footprint keeps clear of the arena's boxes and of the live cloud. All outlive it.
+  DriveTo(Config config, const RobotGeometry& robot, const ArenaMap& arena, BaseController& base,
+          PoseSource pose);
   ~DriveTo() override;
   /// From then on drives only where the live cloud is free. nullptr: as before.
   void setSurroundings(const Surroundings* surroundings);

@@ -109,7 +109,7 @@ TestRobot::Impl::Impl(TestRobot& robot)
       scans_(site_, site_.places[kBurning].name, robot_.misplaced),
       referee_([this] { carryToStart(); }),
       plate_(site_.places[kBurning]),
-      drive_(settings_.drive_to, arena_, base_, [this] { return pose(); }),
+      drive_(settings_.drive_to, geometry_, arena_, base_, [this] { return pose(); }),
       move_arm_(settings_.move_arm, geometry_, arena_, arm_, arm_device_,
                 [this] { return pose(); }),
       authority_(settings_.authority),

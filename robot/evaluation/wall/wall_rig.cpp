@@ -10,13 +10,6 @@ namespace {
 constexpr double kMotionLimit_s = 60.0, kFirstScans_s = 1.0, kPoll_s = 0.04;
 constexpr int kStepsOfATick = 2;  // of the mission, in control periods
 
-DriveTo::Config driveConfig(const RobotGeometry& robot) {
-  DriveTo::Config out;
-  out.footprint_length_m = robot.length_m;
-  out.footprint_width_m = robot.width_m;
-  return out;
-}
-
 }  // namespace
 
 WallRig::WallRig(const RobotGeometry& robot, const ArenaMap& arena, WallRigDevices devices)
@@ -26,7 +19,7 @@ WallRig::WallRig(const RobotGeometry& robot, const ArenaMap& arena, WallRigDevic
       arm_({}, robot_, devices_.arm, stop_),
       base_({}, robot_, devices_.base, stop_),
       mover_({}, robot_, arena_, arm_, devices_.arm, [this] { return pose(); }),
-      drive_(driveConfig(robot_), arena_, base_, [this] { return pose(); }),
+      drive_({}, robot_, arena_, base_, [this] { return pose(); }),
       self_filter_(robot_, {}),
       surroundings_(surroundings_config_),
       sweep_({}, mover_, [this] { return surroundings_.scans(); }) {

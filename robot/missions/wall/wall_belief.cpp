@@ -32,7 +32,8 @@ json toJson(const PileBrick& brick) {
           {"state", toString(brick.state)},
           {"pose", toJson(brick.X_map_brick)},
           {"confidence", brick.confidence},
-          {"taken", brick.taken}};
+          {"taken", brick.taken},
+          {"along_m", brick.along_m}};
 }
 
 json toJson(const std::optional<HeldBrick>& held) {
@@ -103,6 +104,9 @@ Result<PileBrick> brickFrom(const json& saved) {
   if (!(out.confidence >= 0.0 && out.confidence <= 1.0))
     return makeError(ErrorCode::InvalidInput, "a brick's confidence is {}", out.confidence);
   out.taken = saved.at("taken").get<bool>();
+  out.along_m = saved.at("along_m").get<double>();
+  if (!(out.along_m > 0.0 && out.along_m < kFarthest_m))
+    return makeError(ErrorCode::InvalidInput, "a brick is known to {} m", out.along_m);
   return out;
 }
 

@@ -25,6 +25,7 @@ struct PileBrick {
   Eigen::Isometry3d X_map_brick = Eigen::Isometry3d::Identity();
   double confidence = 0.0;  ///< 0 to 1 that it lies there
   bool taken = false;       ///< from the pile, wherever it is now
+  double along_m = 1.0;     ///< one sigma of where it lies along its length, m
 };
 
 /// What the wall mission knows of its site, and what survives a restart of the program. Confined to

@@ -18,7 +18,8 @@ void BrickLookConfig::visit(ConfigArchive& a) {
 }
 
 void LoadingConfig::visit(ConfigArchive& a) {
-  a.field("bricks", bricks, "", 0, 100, "that are taken; 0: the site is surveyed only");
+  a.field("bricks", bricks, "", 0, 100,
+          "of the plan that are taken; all: and built; 0: nothing is touched");
   a.field("look_m", look_m, "m", 1.5, 5, "of the base's middle from the stack it looks at");
   a.field("reach_m", reach_m, "m", 0.5, 2, "of the base's middle from the stack it takes from");
   a.field("left_m", left_m, "m", -0.5, 0.5, "the stack, to the left of the base's middle");

@@ -36,7 +36,8 @@ struct BrickLookConfig {
 
 /// How the bricks of the pile come into the storage.
 struct LoadingConfig {
-  int bricks = 0;         ///< so many are taken; 0: the site is surveyed and nothing is touched
+  /// So many of the plan's are taken; fewer than all: nothing is built; 0: nothing is touched.
+  int bricks = 0;
   double look_m = 2.3;    ///< of the base's middle from the stack that it looks at
   double reach_m = 1.15;  ///< of the base's middle from the stack that it takes from
   double left_m = 0.05;   ///< and the brick so far to the left of the arm's middle

@@ -207,28 +207,57 @@ bool WallContext::standsAt(const Pose2& X_map_stand) const {
          std::abs(wrapAngle(off.yaw_rad)) <= config.loading.same_deg * kDeg;
 }
 
+bool WallContext::stoodSincePileLook() const {
+  constexpr double kRest_m = 0.002, kRest_rad = 0.1 * kDeg;  // of wheel odometry at rest
+  if (!pile_looked_from) return false;
+  const Pose2 off = inverse(*pile_looked_from) * parts.pose();
+  return std::hypot(off.x_m, off.y_m) <= kRest_m && std::abs(wrapAngle(off.yaw_rad)) <= kRest_rad;
+}
+
 KnownBrick WallContext::knownBrick(std::size_t pile_brick) const {
   const PileBrick& brick = belief.bricks[pile_brick];
   return {fmt::format("brick {}", pile_brick + 1), brick.kind,
           toIsometry(inverse(parts.pose())) * brick.X_map_brick};
 }
 
-std::vector<OrientedBox> WallContext::storageNow() const {
-  if (!hands) return {};
+StoragePosture WallContext::postureNow() const {
   StoragePosture posture;
   if (const auto state = parts.storage->state())
     for (const CompartmentState& row : state->compartments) posture.push_back(row.position_m);
   posture.resize(parts.robot.storage.size(), 0.0);
-  return storageAt(posture);
+  return posture;
 }
 
-std::vector<OrientedBox> WallContext::storageAt(const StoragePosture& posture) const {
+std::vector<StoredBrick> WallContext::storedBricks() const {
   const StoragePlan& storage = load().storage;
   std::vector<StoredBrick> stored;
   for (std::size_t i = 0; i < belief.stored; ++i)
     if (inStorage(storage.load[i].brick))
       stored.push_back({storage.sequence[storage.load[i].brick], storage.load[i].seat});
-  return storageBoxes(room_, posture, stored);
+  return stored;
+}
+
+std::vector<OrientedBox> WallContext::storageNow() const {
+  return hands ? storageAt(postureNow()) : std::vector<OrientedBox>();
+}
+
+std::vector<OrientedBox> WallContext::storageAt(const StoragePosture& posture) const {
+  return storageBoxes(room_, posture, storedBricks());
+}
+
+std::vector<KnownBrick> WallContext::carriedBricks() const {
+  std::vector<KnownBrick> out;
+  if (!hands) return out;
+  const StoragePosture posture = postureNow();
+  for (const StoredBrick& brick : storedBricks())
+    out.push_back({describe(room_, brick.seat), brick.kind,
+                   X_base_stored(room_, posture, brick.seat, brick.kind)});
+  const auto arm = parts.arm_device.state();
+  if (const auto& held = belief.held; held && arm)
+    out.push_back({held->name, held->kind,
+                   parts.robot.X_base_flange(arm->q) * parts.robot.X_flange_tool.pose() *
+                       held->X_tool_brick});
+  return out;
 }
 
 std::vector<OrientedBox> WallContext::aroundHands() const {

@@ -27,6 +27,7 @@ class WallContext {
   SweepLook look;
   PileTask pile;
   BrickLook brick_look;
+  std::optional<Pose2> pile_looked_from;  ///< X_map_base of the newest look that showed bricks
   /// Of a robot with gripper and storage.
   struct Hands {
     PickBrick pick;
@@ -54,9 +55,9 @@ class WallContext {
   [[nodiscard]] bool loaded() const { return belief.stored >= toStore(); }
   /// Bricks are missing in the pile, by this mission.
   [[nodiscard]] bool anyTaken() const;
-  /// The load is complete when it is stored, so that it is built; else the site is surveyed only.
+  /// What is stored is the whole wall, so that it is built; else it stays in the storage.
   [[nodiscard]] bool builds() const {
-    return toStore() > 0 && toStore() == load().storage.load.size();
+    return plan.loads.size() == 1 && toStore() > 0 && toStore() == load().storage.load.size();
   }
   [[nodiscard]] bool isBuilt() const { return belief.built.size() >= load().slots.size(); }
   /// The step that set, or will set, the held brick into its bin. @pre a brick is held
@@ -81,11 +82,14 @@ class WallContext {
   [[nodiscard]] Pose2 stackLookPose(std::size_t pile_brick) const;
   [[nodiscard]] Pose2 takingPose(std::size_t pile_brick) const;
   [[nodiscard]] bool standsAt(const Pose2& X_map_stand) const;
+  [[nodiscard]] bool stoodSincePileLook() const;
   /// As the skills know it, in base.
   [[nodiscard]] KnownBrick knownBrick(std::size_t pile_brick) const;
   /// In base: the storage with what stands in it; and the bricks that are still in the pile.
   [[nodiscard]] std::vector<OrientedBox> storageNow() const;
   [[nodiscard]] std::vector<OrientedBox> storageAt(const StoragePosture& posture) const;
+  /// In base: what stands in the storage, and what hangs on the gripper.
+  [[nodiscard]] std::vector<KnownBrick> carriedBricks() const;
   [[nodiscard]] std::vector<OrientedBox> aroundHands() const;
   /// The seat of a step's brick with the compartments standing so, or so far before it.
   [[nodiscard]] Eigen::Isometry3d X_base_seat(const StorageStep& step,
@@ -106,6 +110,10 @@ class WallContext {
   void halt();
 
  private:
+  /// @pre hands
+  [[nodiscard]] StoragePosture postureNow() const;
+  [[nodiscard]] std::vector<StoredBrick> storedBricks() const;
+
   const StorageRoom room_;
 };
 

@@ -44,7 +44,7 @@ Result<void> WallMission::restore(const nlohmann::json& saved) {
 
 MissionInfo WallMission::info() const { return wall::missionInfo(); }
 
-std::vector<Figure> WallMission::figures(Stamp) const { return wall::figures(context_.plan); }
+std::vector<Figure> WallMission::figures(Stamp) const { return wall::figures(context_); }
 
 void WallMission::describe(Scene& scene, Stamp) const { scene.items = wall::sceneItems(context_); }
 
@@ -57,6 +57,7 @@ void WallMission::report(nlohmann::json& report) const {
     return pose(found->X_map_frame);
   };
   report["stored"] = context_.belief.stored;
+  report["built"] = context_.belief.built.size();
   report["map_start"] = pose(context_.parts.arena.start.pose());
   for (const PileBrick& brick : context_.belief.bricks) {
     const Eigen::Vector3d p = brick.X_map_brick.translation();
@@ -96,10 +97,10 @@ Result<std::unique_ptr<Mission>> makeWall(const MissionConfig& config,
 
 MissionKind wallMissionKind() {
   return {"wall",
-          "finds the pile, its bricks and the wall's marker, plans the wall; sets no brick yet",
+          "finds the pile, loads its bricks and builds the wall of the blueprint at its marker",
           "wall_lab",
           {"name=Mario", "geometry=robot_model/mario.yaml", "arena=config/arena_wall_lab.yaml",
-           "localization.method=odometry"},
+           "localization.method=odometry", "wall.loading.bricks=45", "wall.limit_s=2400"},
           [] { return std::make_unique<MissionConfigOf<WallConfig>>(); },
           makeWall,
           {DeviceKind::Lidar, DeviceKind::HeadCamera, DeviceKind::Gripper, DeviceKind::Storage},

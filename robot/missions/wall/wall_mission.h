@@ -5,9 +5,9 @@
 
 namespace kiln {
 
-/// Challenge 2: finds the pile, its bricks and the wall's marker, and plans what is built where;
-/// takes bricks into the storage where it is told to, and sets none yet. Confined to the mission
-/// thread, onPicture() aside.
+/// Challenge 2: plans what is built where, finds the pile and its bricks, loads them in the order of
+/// building, finds the wall's marker and sets them there. Told to take fewer bricks than the plan has
+/// it surveys the site and sets none. Confined to the mission thread, onPicture() aside.
 class WallMission final : public Mission {
  public:
   WallMission(const MissionParts& parts, const WallConfig& config, const WallSiteMap& site,

@@ -12,6 +12,7 @@ namespace {
 
 constexpr const char* kPile = "wall.pile";
 constexpr const char* kWall = "wall.blueprint";
+constexpr const char* kCarried = "wall.carried";
 constexpr double kGround_m = 0.02;
 
 SceneItem brickItem(const char* layer, std::string id, const Eigen::Isometry3d& X_map_brick,
@@ -94,14 +95,33 @@ void addWall(const WallContext& context, std::vector<SceneItem>& out) {
   out.push_back(markerItem(context));
   const Eigen::Isometry3d X_map_wall = toIsometry(context.X_map_wall());
   int number = 0;
+  const std::vector<Eigen::Isometry3d>& built = context.belief.built;  // of the first load
   for (const WallLoad& load : context.plan.loads)
     for (const std::size_t index : load.slots) {
       const WallSlot& slot = context.plan.slots[index];
-      out.push_back(brickItem(kWall, fmt::format("{}", ++number), X_map_wall * slot.X_wall_brick,
-                              slot.kind, ItemStyle::Planned, 1.0));
-      out.back().label = fmt::format("{} {}", number, brickShape(slot.kind).letter);
+      const auto k = static_cast<std::size_t>(number);
+      const bool set = k < built.size();
+      const bool next = k == built.size() && context.loaded() && context.builds();
+      out.push_back(brickItem(kWall, fmt::format("{}", ++number),
+                              X_map_wall * (set ? built[k] : slot.X_wall_brick), slot.kind,
+                              set    ? ItemStyle::Done
+                              : next ? ItemStyle::Target
+                                     : ItemStyle::Planned,
+                              set || next ? 2.0 : 1.0));
+      if (!set) out.back().label = fmt::format("{} {}", number, brickShape(slot.kind).letter);
     }
   out.push_back(nameItem(kWall, "wall", context.X_map_wall(), context.belief.wall));
+}
+
+/// What stands in the storage and what hangs on the gripper.
+void addCarried(const WallContext& context, std::vector<SceneItem>& out) {
+  const Eigen::Isometry3d X_map_base = toIsometry(context.parts.pose());
+  for (const KnownBrick& brick : context.carriedBricks()) {
+    const bool held = context.belief.held && brick.name == context.belief.held->name;
+    out.push_back(brickItem(kCarried, fmt::format("{} {}", brick.name, out.size()),
+                            X_map_base * brick.X_frame_brick, brick.kind,
+                            held ? ItemStyle::Active : ItemStyle::Done, held ? 2.0 : 1.2));
+  }
 }
 
 }  // namespace
@@ -125,18 +145,31 @@ MissionInfo missionInfo() {
   expected.unit = "min";
   expected.estimated = true;
   expected.doc = "at the wall, by the planner's model of arm and base";
-  info.figures = {bricks, positions, expected};
-  info.layers = {{kPile, "Pile"}, {kWall, "Planned wall"}};
+  FigureSpec stored;
+  stored.id = "wall.stored";
+  stored.label = "In the storage";
+  stored.decimals = 0;
+  stored.doc = "bricks that the robot carries";
+  FigureSpec set;
+  set.id = "wall.set";
+  set.label = "Set";
+  set.decimals = 0;
+  set.doc = "bricks that stand in the wall";
+  info.figures = {bricks, stored, set, positions, expected};
+  info.layers = {{kPile, "Pile"}, {kCarried, "Carried bricks"}, {kWall, "Wall"}};
   return info;
 }
 
-std::vector<Figure> figures(const WallPlan& plan) {
+std::vector<Figure> figures(const WallContext& context) {
+  const WallPlan& plan = context.plan;
   double positions = 0.0, expected_s = 0.0;
   for (const WallLoad& load : plan.loads) {
     positions += load.order.cost.positions;
     expected_s += load.expected_s;
   }
   return {{"wall.bricks", static_cast<double>(plan.slots.size())},
+          {"wall.stored", static_cast<double>(context.belief.stored - context.belief.taken_out)},
+          {"wall.set", static_cast<double>(context.belief.built.size())},
           {"wall.positions", positions},
           {"wall.expected", expected_s / 60.0}};
 }
@@ -144,6 +177,7 @@ std::vector<Figure> figures(const WallPlan& plan) {
 std::vector<SceneItem> sceneItems(const WallContext& context) {
   std::vector<SceneItem> out;
   addPile(context, out);
+  addCarried(context, out);
   addWall(context, out);
   return out;
 }

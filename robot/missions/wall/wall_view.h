@@ -10,7 +10,7 @@
 namespace kiln::wall {
 
 [[nodiscard]] MissionInfo missionInfo();
-[[nodiscard]] std::vector<Figure> figures(const WallPlan& plan);
+[[nodiscard]] std::vector<Figure> figures(const WallContext& context);
 /// Pile and wall as boxes where they are believed to be, in the order of building, and what was
 /// found of them.
 [[nodiscard]] std::vector<SceneItem> sceneItems(const WallContext& context);

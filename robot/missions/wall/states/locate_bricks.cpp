@@ -51,10 +51,15 @@ Transition LocateBricks::conclude(const BrickSight& sight) {
   for (const BrickEstimate& brick : sight.bricks.bricks) {
     seen.resize(std::max(seen.size(), static_cast<std::size_t>(brick.id) + 1));
     seen[static_cast<std::size_t>(brick.id)] = {
-        brick.kind, brick.state, X_map_base * levelled(brick.X_base_brick, config.level_deg * kDeg),
-        brick.confidence, false};
+        brick.kind,
+        brick.state,
+        X_map_base * levelled(brick.X_base_brick, config.level_deg * kDeg),
+        brick.confidence,
+        false,
+        alongSigma(brick)};
   }
-  c.belief.bricks = merged(c.belief.bricks, seen, config.trusted);
+  c.belief.bricks = merged(c.belief.bricks, seen, config.trusted, c.stoodSincePileLook());
+  c.pile_looked_from = c.parts.pose();
   c.belief.pile->X_map_frame = projectToGround(X_map_base * sight.target.X_base_target);
   c.siteMoved();
   int trusted = 0;

@@ -40,12 +40,12 @@ Transition LocateWall::conclude(const BrickSight& sight) {
   for (const BrickEstimate& brick : sight.bricks.bricks) {
     const Eigen::Isometry3d& X_wall_brick = c.belief.built[static_cast<std::size_t>(brick.id)];
     before.push_back({brick.kind, BrickState::Found, X_map_wall * X_wall_brick, 1.0, false});
-    seen.push_back(
-        {brick.kind, brick.state, X_map_base * brick.X_base_brick, brick.confidence, false});
+    seen.push_back({brick.kind, brick.state, X_map_base * brick.X_base_brick, brick.confidence,
+                    false, alongSigma(brick)});
     if (brick.confidence > trusted) ++found;
   }
   if (found == 0) return again("not one of its bricks was seen well enough");
-  const Pose2 moved = projectToGround(commonMotion(before, seen, trusted));
+  const Pose2 moved = projectToGround(commonMotion(before, seen, trusted).X);
   c.belief.wall->X_map_frame = moved * c.belief.wall->X_map_frame;
   c.belief.handling_faults = 0;
   c.siteMoved();

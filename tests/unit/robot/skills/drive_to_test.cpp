@@ -61,7 +61,7 @@ class DriveToTest : public ::testing::Test {
   std::normal_distribution<double> normal{0.0, 1.0};
   double noise_m = 0.0;
   Pose2 offset;  ///< of localisation against the truth
-  DriveTo drive{{}, arena, controller, [this] { return measuredPose(); }};
+  DriveTo drive{{}, robot, arena, controller, [this] { return measuredPose(); }};
   SkillStatus status;
   bool polling = false;
   int ticks = 0;
@@ -139,6 +139,19 @@ TEST_F(DriveToTest, RefusesWaypointsOutsideTheFenceAndThroughWalls) {
   EXPECT_EQ(run({{0, 3, 0}, {8, 3, 0}}).failure_code, "in_collision");
   EXPECT_NE(status.text.find("west wall north"), std::string::npos) << status.text;
   EXPECT_NEAR(base.truePose().x_m, 0.0, 1e-9);
+}
+
+/// Of another robot than this one it says nothing: the smaller one passes where the larger does not.
+TEST_F(DriveToTest, KeepsClearByTheFootprintOfItsOwnRobot) {
+  arena.walls = {{"post", {}, {0.1, 0.1, 2.0}}};
+  arena.walls[0].center.xyz_m = {1.5, 0.6, 1.0};
+  EXPECT_EQ(run({{3, 0, 0}}).failure_code, "in_collision");
+  RobotGeometry small = robot;
+  small.length_m = 1.08;
+  small.width_m = 0.78;
+  DriveTo narrow{{}, small, arena, controller, [this] { return measuredPose(); }};
+  narrow.start({{3, 0, 0}}, clock.now());
+  EXPECT_EQ(narrow.poll(clock.now()).phase, SkillPhase::Running);
 }
 
 TEST_F(DriveToTest, NoticesThatItIsStuck) {

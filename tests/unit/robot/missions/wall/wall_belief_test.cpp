@@ -15,6 +15,7 @@ WallBelief known() {
   brick.X_map_brick =
       Eigen::Translation3d(1.0, 2.0, 0.5) * Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitZ());
   brick.taken = true;
+  brick.along_m = 0.007;
   belief.bricks = {brick};
   belief.stored = 3;
   belief.held = HeldBrick{"brick 4", BrickKind::Red, brick.X_map_brick, 0.98};
@@ -35,6 +36,7 @@ TEST(WallBelief, ComesBackAsItWasSaved) {
   EXPECT_TRUE(back->bricks[0].X_map_brick.isApprox(known().bricks[0].X_map_brick, 1e-12));
   EXPECT_DOUBLE_EQ(back->bricks[0].confidence, 0.9);
   EXPECT_TRUE(back->bricks[0].taken);
+  EXPECT_DOUBLE_EQ(back->bricks[0].along_m, 0.007);
   EXPECT_EQ(back->stored, 3u);
   ASSERT_TRUE(back->held.has_value());
   EXPECT_EQ(back->held->name, "brick 4");
