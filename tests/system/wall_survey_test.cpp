@@ -64,28 +64,6 @@ TEST(WallSurvey, TakesABrickIntoItsStorageWhenToldTo) {
   EXPECT_EQ(report["falls"], 0);
 }
 
-/// The lab's run from end to end: by the simulator's referee every brick stands in its slot.
-TEST(WallSurvey, BuildsTheWallOfTheBlueprint) {
-  MissionRunOptions options = survey(2);
-  ScratchFolder folder("calibration");
-  const std::string file = folder.file("mario.yaml");
-  auto calibrated = ChildProcess::start({kiln::binaryDir() + "/bin/kiln-eval", "calibrate",
-                                         "--world", "wall_lab", "--seeds", "2-2", "--out", file},
-                                        folder.file("log"));
-  ASSERT_TRUE(calibrated.has_value()) << calibrated.error();
-  ASSERT_EQ(calibrated->wait(std::chrono::seconds(120)), 0);
-  options.robot_args = {"--calibration", file};
-  const auto run = runMission(options);
-  ASSERT_TRUE(run.has_value()) << run.error();
-  EXPECT_TRUE(run->success) << run->report_json;
-  const json report = json::parse(run->report_json);
-  EXPECT_EQ(report["built"], 11);
-  EXPECT_EQ(report["placed"], 11);
-  EXPECT_EQ(report["points"], 21);
-  EXPECT_EQ(report["falls"], 0);
-  EXPECT_EQ(report["collisions"].size(), 0u);
-}
-
 TEST(WallSurvey, ABlueprintThatCannotBeReadIsRefusedBeforeAnythingMoves) {
   MissionRunOptions options = survey(1);
   ScratchFolder folder("blueprint");
